@@ -1,0 +1,20 @@
+# Flags that hang on targets. graspd_options: what every target of ours is compiled with;
+# graspd_warnings: strict warnings for our own sources only, never for generated ones.
+add_library(graspd_options INTERFACE)
+target_compile_options(graspd_options INTERFACE -ffp-contract=off)
+if(NOT GRASPD_PORTABLE AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|amd64|AMD64")
+  target_compile_options(graspd_options INTERFACE -march=x86-64-v2)
+endif()
+if(GRASPD_SANITIZE)
+  target_compile_options(graspd_options INTERFACE -fsanitize=${GRASPD_SANITIZE}
+                                                  -fno-omit-frame-pointer)
+  target_link_options(graspd_options INTERFACE -fsanitize=${GRASPD_SANITIZE})
+endif()
+
+add_library(graspd_warnings INTERFACE)
+target_compile_options(graspd_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+  -Wold-style-cast -Wcast-align -Woverloaded-virtual -Wdouble-promotion -Wimplicit-fallthrough)
+if(GRASPD_WERROR)
+  target_compile_options(graspd_warnings INTERFACE -Werror)
+endif()

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+
+#include "graspd/planner/plan_types.hpp"
+#include "graspd/planner/planner_config.hpp"
+
+namespace graspd {
+
+/// Asked between rounds of work: true when the caller no longer wants the rest (time budget spent,
+/// cancelled). A planner that is told so answers PARTIAL with its last completed round.
+using StopQuery = std::function<bool()>;
+
+/// Plans grasps for one object: the paper from II-A to II-F.
+///
+/// Never throws for what an input can cause: every outcome is a status with a message. Pure apart
+/// from the stages' wall times in the report, so safe to call from any number of threads; the same
+/// request and configuration give the same reply whatever runs beside it.
+PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
+               const StopQuery& stop_requested = {});
+
+}  // namespace graspd
