@@ -1,0 +1,165 @@
+#include "graspd/mesh/condition_mesh.hpp"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "clean_faces.hpp"
+#include "fill_holes.hpp"
+#include "graspd/base/settings.hpp"
+#include "mesh_edges.hpp"
+#include "orient_faces.hpp"
+#include "solid_properties.hpp"
+
+namespace graspd {
+namespace {
+
+using namespace mesh_detail;
+
+// Differences of doubles carry about 1e-16 of the largest coordinate; a tolerance below that can
+// only mean equality.
+constexpr double kLeastWeldTolerance = 1e-15;
+
+template <class... Parts>
+PlanError error(PlanErrorCode code, const Parts&... parts) {
+    std::ostringstream text;
+    (text << ... << parts);
+    return PlanError{code, text.str()};
+}
+
+std::optional<PlanError> check_counts(const TriangleMesh& soup, const ConditionMeshConfig& config) {
+    if (soup.vertices.empty() || soup.faces.empty()) {
+        return error(PlanErrorCode::kInvalidInput, "mesh is empty: ", soup.vertices.size(),
+                     " vertices, ", soup.faces.size(), " faces");
+    }
+    if (soup.vertices.size() > config.max_vertices) {
+        return error(PlanErrorCode::kTooLarge, "mesh has ", soup.vertices.size(),
+                     " vertices, limit max_vertices = ", config.max_vertices);
+    }
+    if (soup.faces.size() > config.max_faces) {
+        return error(PlanErrorCode::kTooLarge, "mesh has ", soup.faces.size(),
+                     " faces, limit max_faces = ", config.max_faces);
+    }
+    return std::nullopt;
+}
+
+std::optional<PlanError> check_values(const TriangleMesh& soup) {
+    for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
+        const Eigen::Vector3d& vertex = soup.vertices[i];
+        if (vertex.allFinite()) continue;
+        return error(PlanErrorCode::kInvalidInput, "mesh vertex ", i, " = (", vertex.x(), ", ",
+                     vertex.y(), ", ", vertex.z(), ") is not finite");
+    }
+    for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+        for (const std::uint32_t vertex : soup.faces[f]) {
+            if (vertex < soup.vertices.size()) continue;
+            return error(PlanErrorCode::kInvalidInput, "mesh face ", f, " uses vertex ", vertex,
+                         " of ", soup.vertices.size());
+        }
+    }
+    return std::nullopt;
+}
+
+/// Diagonal of the box around the vertices that faces use [m].
+double diagonal_of(const TriangleMesh& soup) {
+    Eigen::AlignedBox3d box;
+    for (const Triangle& face : soup.faces) {
+        for (const std::uint32_t vertex : face) box.extend(soup.vertices[vertex]);
+    }
+    return box.diagonal().norm();
+}
+
+/// The findings, in the order of the work.
+class FindingList {
+public:
+    explicit FindingList(std::vector<Finding>& list) : list_(list) {}
+
+    template <class... Parts>
+    void add(const char* code, double value, const Parts&... parts) {
+        if (value == 0.0) return;
+        std::ostringstream text;
+        text << value;
+        (text << ... << parts);
+        list_.push_back({code, value, text.str()});
+    }
+
+private:
+    std::vector<Finding>& list_;
+};
+
+void report_cleaning(const CleanFaces& clean, FindingList& findings) {
+    findings.add("vertices_welded", clean.welded, " vertices stood where an earlier one stands");
+    findings.add("degenerate_faces_dropped", clean.degenerate, " faces had two equal corners");
+    findings.add("duplicate_faces_dropped", clean.duplicate,
+                 " faces had the corners of an earlier face");
+    findings.add("vertices_unreferenced", clean.unreferenced, " vertices belong to no kept face");
+}
+
+/// Turns the faces that disagree with their patch, closes the holes, turns the surfaces outward.
+HoleFill close_and_orient(TriangleMesh& mesh, FindingList& findings) {
+    MeshEdges edges = collect_edges(mesh.faces);
+    Orientation patches = orient_faces(mesh.faces, edges);
+    turn_faces(patches.flip, mesh.faces, edges);
+    DisjointSets groups(patches.patches);
+    const std::vector<OpenEdge> open = find_open_edges(mesh.faces, edges, patches, groups);
+    const auto loops = walk_loops(open, mesh.vertices.size());
+    const HoleFill fill = fill_holes(open, loops, mesh, patches.patch_of_face, groups);
+    const std::uint32_t turned = turn_outward(mesh, patches.patch_of_face, patches.patches, groups);
+
+    std::size_t crowded = 0;
+    for (const MeshEdge& edge : edges.edges) crowded += edge.count > 2;
+    findings.add("faces_flipped", patches.flipped, " faces were wound against their neighbours");
+    findings.add("holes_filled", static_cast<double>(loops.size()), " boundary loops closed, ",
+                 open.size(), " edges, fill is ",
+                 100.0 * fill.area_m2 / integrate_solid(mesh).area_m2, " % of the area");
+    findings.add("components_inverted", turned, " surfaces pointed inward");
+    findings.add("non_manifold_edges", static_cast<double>(crowded),
+                 " edges have more than two faces");
+    const std::uint32_t components = count_components(mesh);
+    findings.add("components", components,
+                 components == 1 ? " piece" : " pieces without a common vertex");
+    return fill;
+}
+
+std::optional<PlanError> check_solid(const SolidProperties& solid, double diagonal_m,
+                                     double min_solidity) {
+    const double ratio = solid.volume_m3 / (diagonal_m * diagonal_m * diagonal_m);
+    if (std::isfinite(ratio) && solid.volume_m3 > 0.0 && ratio >= min_solidity) return std::nullopt;
+    return error(PlanErrorCode::kDegenerate, "mesh is a flat sheet: volume ", solid.volume_m3,
+                 " m3 over its diagonal ", diagonal_m, " m cubed is ", ratio,
+                 ", least min_solidity = ", min_solidity);
+}
+
+}  // namespace
+
+Result<ConditionedMesh> condition_mesh(const TriangleMesh& soup,
+                                       const ConditionMeshConfig& config) {
+    if (auto bad = validate(config, "condition_mesh.")) return *bad;
+    if (auto bad = check_counts(soup, config)) return *bad;
+    if (auto bad = check_values(soup)) return *bad;
+    const double diagonal_m = diagonal_of(soup);
+    if (!std::isfinite(diagonal_m)) {
+        return error(PlanErrorCode::kInvalidInput, "mesh extent ", diagonal_m,
+                     " m: its bounding box is too large to measure");
+    }
+    const bool exact = config.weld_tolerance < kLeastWeldTolerance;
+    CleanFaces clean = clean_faces(soup, exact ? 0.0 : config.weld_tolerance * diagonal_m);
+    if (clean.mesh.faces.empty()) {
+        return error(PlanErrorCode::kDegenerate, "all ", soup.faces.size(),
+                     " faces of the mesh are degenerate (two equal corners)");
+    }
+    ConditionedMesh result;
+    FindingList findings(result.findings);
+    report_cleaning(clean, findings);
+    result.mesh = std::move(clean.mesh);
+    result.vertex_of_input = std::move(clean.vertex_of_input);
+    result.fill_vertices = close_and_orient(result.mesh, findings).vertices;
+    const SolidProperties solid = integrate_solid(result.mesh);
+    if (auto bad = check_solid(solid, diagonal_m, config.min_solidity)) return *bad;
+    result.volume_m3 = solid.volume_m3;
+    result.center_of_mass = solid.center_of_mass;
+    return result;
+}
+
+}  // namespace graspd
