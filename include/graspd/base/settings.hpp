@@ -49,6 +49,7 @@ struct RangeChecker {
         error = PlanError{PlanErrorCode::kInvalidInput, text.str()};
     }
     void operator()(const char*, const bool&) {}
+    void operator()(const char*, const std::string&) {}
 };
 
 }  // namespace detail
