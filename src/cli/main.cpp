@@ -1,0 +1,96 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "commands.hpp"
+#include "exit_code.hpp"
+#include "graspd/config/version.hpp"
+
+namespace {
+
+using namespace graspd::cli;  // NOLINT(google-build-using-namespace): this is its program
+
+/// Everything that the command line can set.
+struct Arguments {
+    PlanArguments plan;
+    OutputArguments output;
+    std::string units;
+    std::string config_file;
+};
+
+const std::vector<std::string> kMethods = {"any_angle", "tetrahedral"};
+
+void add_object(CLI::App& command, Arguments& to) {
+    command.add_option("FILE", to.plan.object.file, "STL, OBJ, OFF, PLY or PCD")->required();
+    auto* scale = command.add_option("--scale", to.plan.object.scale,
+                                     "factor from the file's numbers to metres");
+    scale->check(CLI::PositiveNumber);
+    command.add_option("--units", to.units, "unit of the file's numbers")
+        ->check(CLI::IsMember({"mm", "cm", "m"}))
+        ->excludes(scale);
+}
+
+void add_output(CLI::App& command, Arguments& to) {
+    command.add_option("--out", to.output.out, "write the result to this file");
+}
+
+void add_format(CLI::App& command, Arguments& to) {
+    command.add_option("--format", to.output.format, "table (for people) or json")
+        ->check(CLI::IsMember({"table", "json"}));
+    add_output(command, to);
+}
+
+void add_config(CLI::App& command, Arguments& to) {
+    command.add_option("--config", to.config_file, "planner.yaml; default: built-in values");
+}
+
+void add_plan(CLI::App& command, Arguments& to) {
+    add_object(command, to);
+    add_format(command, to);
+    command.add_option("--gripper", to.plan.gripper, "name of a profile, or a .yaml file");
+    command.add_option("--top", to.plan.top, "most grasps")->check(CLI::Range(1u, 1000000u));
+    command.add_option("--time-budget", to.plan.time_budget_ms, "[ms]")->check(CLI::PositiveNumber);
+    command.add_option("--friction", to.plan.friction, "coefficient")->check(CLI::PositiveNumber);
+    command.add_option("--up", to.plan.up, "X,Y,Z: the object stands on a plane normal to this");
+    command.add_option("--sources", to.plan.sources, "boundary,wall,whole_object or all");
+    command.add_option("--seed", to.plan.seed, "of every random draw");
+    command.add_option("--frame", to.plan.frame_id, "name of the file's frame, echoed");
+    command.add_option("--report", to.output.report, "directory for reply.json and reply.txt");
+}
+
+/// Adds the subcommands; each sets `run` to what it stands for.
+void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
+    auto* plan = app.add_subcommand("plan", "plan grasps in this process");
+    add_plan(*plan, to);
+    add_config(*plan, to);
+    plan->add_option("--concavity", to.plan.concavity, "method")->check(CLI::IsMember(kMethods));
+    plan->callback([&] { run = [&] { return run_plan(to.plan, to.config_file, to.output); }; });
+
+    auto* grippers = app.add_subcommand("grippers", "list the known grippers");
+    add_format(*grippers, to);
+    grippers->callback([&] { run = [&] { return run_grippers(to.output); }; });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("graspctl: plans grasps for objects it has never seen");
+    app.set_version_flag("--version", std::string("graspctl ") + graspd::version());
+    app.require_subcommand(1);
+    Arguments arguments;
+    std::function<int()> run;
+    add_commands(app, arguments, run);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const bool asked = error.get_exit_code() == 0;  // --help or --version
+        app.exit(error, std::cout, std::cerr);
+        return asked ? kExitOk : kExitUsage;
+    }
+    if (arguments.units == "mm") arguments.plan.object.scale = 1e-3;
+    if (arguments.units == "cm") arguments.plan.object.scale = 1e-2;
+    try {
+        return run();
+    } catch (const std::exception& error) {
+        return fail({graspd::PlanErrorCode::kInternal, error.what()});
+    }
+}

@@ -1,0 +1,108 @@
+#include "plan_arguments.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "graspd/config/load_gripper.hpp"
+#include "graspd/mesh/read_object.hpp"
+
+namespace graspd::cli {
+namespace {
+
+PlanError wrong(const std::string& option, const std::string& value, const std::string& wanted) {
+    return {PlanErrorCode::kInvalidInput, option + " = " + value + " must be " + wanted};
+}
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    while (true) {
+        const std::size_t comma = text.find(',', begin);
+        parts.push_back(text.substr(begin, comma - begin));
+        if (comma == std::string::npos) return parts;
+        begin = comma + 1;
+    }
+}
+
+const std::vector<Eigen::Vector3d>& points_of(
+    const std::variant<TriangleMesh, PointCloud>& object) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(&object)) return mesh->vertices;
+    return std::get<PointCloud>(object).points;
+}
+
+/// The plane normal to `up` through the object's lowest finite point.
+SupportPlane plane_under(const std::variant<TriangleMesh, PointCloud>& object,
+                         const Eigen::Vector3d& up) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& point : points_of(object)) {
+        const double height = up.dot(point);
+        if (std::isfinite(height)) lowest = std::min(lowest, height);
+    }
+    return {up, std::isfinite(lowest) ? lowest : 0.0};
+}
+
+}  // namespace
+
+Result<Eigen::Vector3d> parse_direction(const std::string& text) {
+    const PlanError error = wrong("--up", text, "none or X,Y,Z, such as 0,0,1");
+    const auto parts = split(text);
+    if (parts.size() != 3) return error;
+    Eigen::Vector3d direction;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+        const std::string& part = parts[static_cast<std::size_t>(i)];
+        const char* end = part.data() + part.size();
+        const auto got = std::from_chars(part.data(), end, direction[i]);
+        if (got.ec != std::errc{} || got.ptr != end) return error;
+    }
+    const double length = direction.norm();
+    if (!std::isfinite(length) || length <= 0.0) return error;
+    return Eigen::Vector3d(direction / length);
+}
+
+Result<std::uint8_t> parse_sources(const std::string& text) {
+    if (text == "all") return std::uint8_t{kAllSources};
+    unsigned bits = 0;
+    for (const std::string& name : split(text)) {
+        const GraspSource known[] = {kBoundary, kWall, kWholeObject};
+        const auto source =
+            std::ranges::find_if(known, [&](GraspSource s) { return name == to_string(s); });
+        if (source == std::end(known)) {
+            return wrong("--sources", text, "all, or some of boundary,wall,whole_object");
+        }
+        bits |= static_cast<unsigned>(*source);
+    }
+    return static_cast<std::uint8_t>(bits);
+}
+
+Result<PlanRequest> make_request(const PlanArguments& arguments,
+                                 const std::filesystem::path& profiles) {
+    auto sources = parse_sources(arguments.sources);
+    if (!sources.ok()) return sources.error();
+    auto gripper = find_gripper(arguments.gripper, profiles / "grippers");
+    if (!gripper.ok()) return gripper.error();
+    auto object = read_object(arguments.object.file, arguments.object.scale);
+    if (!object.ok()) return object.error();
+
+    PlanRequest request;
+    request.request_id = arguments.request_id.empty()
+                             ? std::filesystem::path(arguments.object.file).stem().string()
+                             : arguments.request_id;
+    request.frame_id = arguments.frame_id;
+    request.object_O = std::move(object.value().object);
+    request.grippers = {std::move(gripper).value()};
+    if (arguments.up != "none") {
+        const auto up = parse_direction(arguments.up);
+        if (!up.ok()) return up.error();
+        request.support_plane = plane_under(request.object_O, up.value());
+    }
+    request.options.max_grasps = arguments.top;
+    request.options.time_budget_s = arguments.time_budget_ms * 1e-3;
+    request.options.friction = arguments.friction;
+    request.options.sources = sources.value();
+    request.options.seed = arguments.seed;
+    return request;
+}
+
+}  // namespace graspd::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "graspd/planner/plan_types.hpp"
+#include "graspd/planner/planner_config.hpp"
+
+namespace graspd::cli {
+
+/// How a file's numbers become metres.
+struct ObjectArguments {
+    std::string file;
+    double scale = 1.0;  ///< factor on every coordinate
+};
+
+/// What `plan` and `request` take from the command line, in the words of a person at a shell.
+struct PlanArguments {
+    ObjectArguments object;
+    std::string gripper = "parallel_85";  ///< name of a profile, or a .yaml file
+    std::uint32_t top = 10;
+    double time_budget_ms = 10000.0;  ///< [ms]
+    double friction = 0.6;
+    std::string up = "none";      ///< "X,Y,Z" or "none"
+    std::string concavity;        ///< "any_angle", "tetrahedral", or empty: as configured
+    std::string sources = "all";  ///< comma-separated names
+    std::uint64_t seed = 0;
+    std::string frame_id = "object";
+    std::string request_id;  ///< empty: the file's stem
+};
+
+/// Where the result goes and in which form.
+struct OutputArguments {
+    std::string format = "table";  ///< "table" or "json"
+    std::string out;               ///< file; empty: standard output
+    std::string report;            ///< directory for the whole report; empty: none
+};
+
+/// Reads the object, finds the gripper and makes the request; frame F is the file's own.
+/// With `up` the object stands on the plane that is normal to it and touches its lowest point.
+/// @return the first wrong argument, named as on the command line
+Result<PlanRequest> make_request(const PlanArguments& arguments,
+                                 const std::filesystem::path& profiles);
+
+/// "x,y,z" as a unit vector. @return kInvalidInput for anything else, or a zero or non-finite one
+Result<Eigen::Vector3d> parse_direction(const std::string& text);
+
+/// "boundary,wall,whole_object" or "all" as bits of GraspSource.
+Result<std::uint8_t> parse_sources(const std::string& text);
+
+}  // namespace graspd::cli

@@ -1,0 +1,22 @@
+#include "planner_settings.hpp"
+
+#include "graspd/config/load_config.hpp"
+
+namespace graspd::cli {
+
+Result<PlannerConfig> planner_settings(const std::string& config_file,
+                                       const std::string& concavity_method) {
+    PlannerConfig config;
+    if (!config_file.empty()) {
+        auto loaded = load_config<PlannerConfig>(config_file, {}, {"server"});
+        if (!loaded.ok()) return loaded.error();
+        config = std::move(loaded).value();
+    }
+    if (!concavity_method.empty() && concavity_method != "any_angle") {
+        return PlanError{PlanErrorCode::kUnsupported,
+                         "--concavity = " + concavity_method + " is not served yet"};
+    }
+    return config;
+}
+
+}  // namespace graspd::cli
