@@ -35,7 +35,7 @@ struct TriangulatedCloud {
                         ///< it to condition_mesh
     std::vector<std::int32_t> vertex_of_point;  ///< per input point: the mesh vertex that stands
                                                 ///< for it, or -1 (dropped)
-    double spacing_m = 0.0;         ///< [m] median distance to the nearest neighbour
+    double spacing_m = 0.0;                     ///< [m] median distance to the nearest neighbour
     std::vector<Finding> findings;  ///< points_not_finite, points_thinned, points_duplicate, ...
 };
 

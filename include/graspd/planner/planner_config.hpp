@@ -1,7 +1,17 @@
 #pragma once
 
+#include "graspd/concavity/shortest_path_concavity.hpp"
+#include "graspd/contour/boundary_points.hpp"
+#include "graspd/contour/concave_hull.hpp"
+#include "graspd/grasp/force_balance.hpp"
+#include "graspd/grasp/grasp_sides.hpp"
+#include "graspd/grasp/step_points.hpp"
 #include "graspd/mesh/condition_mesh.hpp"
+#include "graspd/mesh/sample_surface.hpp"
 #include "graspd/mesh/triangulate_cloud.hpp"
+#include "graspd/regions/cluster_concavities.hpp"
+#include "graspd/regions/concavity_frame.hpp"
+#include "graspd/regions/extract_concave_areas.hpp"
 
 namespace graspd {
 
@@ -9,11 +19,31 @@ namespace graspd {
 struct PlannerConfig {
     TriangulateCloudConfig triangulate_cloud;
     ConditionMeshConfig condition_mesh;
+    ConcavityConfig shortest_path_concavity;
+    SampleSurfaceConfig sample_surface;
+    ExtractConcaveAreasConfig extract_concave_areas;
+    ClusterConcavitiesConfig cluster_concavities;
+    ConcavityFrameConfig concavity_frame;
+    ConcaveHullConfig concave_hull;
+    BoundaryPointsConfig boundary_points;
+    StepPointsConfig step_points;
+    GraspSidesConfig grasp_sides;
+    ForceBalanceConfig force_balance;
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         visit("triangulate_cloud", self.triangulate_cloud);
         visit("condition_mesh", self.condition_mesh);
+        visit("shortest_path_concavity", self.shortest_path_concavity);
+        visit("sample_surface", self.sample_surface);
+        visit("extract_concave_areas", self.extract_concave_areas);
+        visit("cluster_concavities", self.cluster_concavities);
+        visit("concavity_frame", self.concavity_frame);
+        visit("concave_hull", self.concave_hull);
+        visit("boundary_points", self.boundary_points);
+        visit("step_points", self.step_points);
+        visit("grasp_sides", self.grasp_sides);
+        visit("force_balance", self.force_balance);
     }
 };
 

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "graspd/base/geometry.hpp"
+
+namespace graspd {
+
+/// A box tree over triangles that answers ray and segment queries.
+///
+/// Watertight by an absolute tolerance: a ray within `tolerance_m` of a triangle's edge hits it, so
+/// nothing leaks between neighbours however small they are. (A tolerance relative to the triangle
+/// leaks above 20k faces; see docs/architecture.md.) Rays in a triangle's own plane do not hit it.
+/// Immutable after construction, so safe to query from any thread.
+class TriangleBvh {
+public:
+    /// A place where a ray meets the surface.
+    struct Hit {
+        double distance_m = 0.0;   ///< [m] from the ray's origin
+        std::uint32_t face = 0;    ///< index into the mesh's faces
+        bool from_outside = true;  ///< the ray meets the face's outer side
+    };
+
+    /// Copies what it needs of `mesh`; faces of zero area are never hit. Cost O(F log F).
+    /// @param tolerance_m [m] >= 0, e.g. 1e-6 of the diagonal
+    TriangleBvh(const TriangleMesh& mesh, double tolerance_m);
+
+    /// True when some triangle meets the closed segment from `a` to `b` [m].
+    bool segment_blocked(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+
+    /// The nearest hit within max_distance_m along the unit direction; ties by the lower face
+    /// index.
+    std::optional<Hit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                 double max_distance_m) const;
+
+    /// All hits by rising distance (ties by face). Hits on a shared edge come once per face, unless
+    /// they follow each other within the tolerance on the same side: then one stands for all.
+    std::vector<Hit> all_hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                              double max_distance_m) const;
+
+    /// True when the point [m] lies inside the closed surface: majority of three ray directions,
+    /// each judged by the side of the first face that it meets.
+    bool contains(const Eigen::Vector3d& point) const;
+
+private:
+    struct Node {
+        Eigen::AlignedBox3d box;
+        std::uint32_t first = 0;  ///< leaf: first triangle; inner: index of the right child
+        std::uint32_t count = 0;  ///< triangles in a leaf, 0 for an inner node
+    };
+    struct Corner {
+        Eigen::Vector3d origin, edge1, edge2;
+        double tolerance = 0.0;  ///< barycentric, = tolerance_m / least height
+        std::uint32_t face = 0;
+    };
+    struct BuildItem;
+    struct Ray;
+
+    std::uint32_t build(std::vector<BuildItem>& items, std::uint32_t first, std::uint32_t last,
+                        int depth);
+    static std::uint32_t split(std::vector<BuildItem>& items, std::uint32_t first,
+                               std::uint32_t last, int axis, double low, double width);
+    template <class Visit>
+    void traverse(const Ray& ray, double& reach, Visit&& visit) const;
+
+    double tolerance_m_ = 0.0;
+    Eigen::AlignedBox3d bounds_;
+    std::vector<Node> nodes_;
+    std::vector<Corner> corners_;
+};
+
+}  // namespace graspd

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "graspd/base/result.hpp"
+
+namespace graspd {
+
+/// One flat face of a convex hull, coplanar triangles merged.
+struct HullFacet {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward unit normal
+    double offset_m = 0.0;    ///< [m] normal . p <= offset_m holds for every point of the hull
+    Eigen::AlignedBox3d box;  ///< [m] of the facet's vertices
+};
+
+/// The convex hull of a point set.
+struct OuterHull {
+    std::vector<HullFacet> facets;
+    std::vector<std::uint32_t> vertices;  ///< rising indices of the points that span it
+    double volume_m3 = 0.0;               ///< [m^3]
+};
+
+/// The proper outer convex hull of the mesh's vertices, by qhull with merged facets.
+///
+/// Source: Lei & Wisse 2016, Sec. II-A, Fig. 3c.
+/// @param points  (N, N >= 4) finite [m], any frame
+/// @return kDegenerate with qhull's reason for fewer than 4 points or coplanar ones
+/// Complexity O(N log N). Pure.
+Result<OuterHull> outer_hull(std::span<const Eigen::Vector3d> points);
+
+/// Answers "how far is it from a point inside to the nearest hull plane" by a box tree over the
+/// facets. For a point inside this is the exact distance to the hull's surface.
+class HullPlaneTree {
+public:
+    struct Nearest {
+        double distance_m = 0.0;  ///< [m] >= 0; 0 for a point on or slightly outside the hull
+        std::uint32_t facet = 0;
+    };
+    /// Copies the facets. Precondition: at least one.
+    explicit HullPlaneTree(const OuterHull& hull);
+
+    /// The facet whose plane is nearest; ties by the lower index.
+    Nearest nearest(const Eigen::Vector3d& point) const;
+
+    const HullFacet& facet(std::uint32_t index) const { return facets_[index]; }
+
+private:
+    struct Node {
+        Eigen::AlignedBox3d box;
+        std::uint32_t first = 0, count = 0;  ///< as in TriangleBvh
+    };
+    std::uint32_t build(std::uint32_t first, std::uint32_t last);
+
+    std::vector<HullFacet> facets_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+}  // namespace graspd
