@@ -233,6 +233,46 @@ std::vector<TriangleBvh::Hit> TriangleBvh::all_hits(const Eigen::Vector3d& origi
     return hits;
 }
 
+std::vector<std::uint32_t> TriangleBvh::faces_near(const OrientedBox& box, double within_m) const {
+    std::vector<std::uint32_t> faces;
+    if (nodes_.empty()) return faces;
+    const Eigen::Matrix3d axes = box.pose.linear();
+    const Eigen::Matrix3d spread = axes.cwiseAbs();
+    const Eigen::Vector3d center = box.pose.translation();
+    const Eigen::Vector3d reach = spread * box.half_extent;  // of the box along the world's axes
+    const auto near = [&](const Eigen::AlignedBox3d& node) {
+        const Eigen::Vector3d offset = node.center() - center;
+        const Eigen::Vector3d half = 0.5 * node.sizes();
+        const Eigen::Array3d gap_world = offset.array().abs() - half.array() - reach.array();
+        if (gap_world.maxCoeff() > within_m) return false;
+        const Eigen::Vector3d offset_box = axes.transpose() * offset;
+        const Eigen::Vector3d half_box = spread.transpose() * half;
+        return ((offset_box.array().abs() - half_box.array() - box.half_extent.array())
+                    .maxCoeff()) <= within_m;
+    };
+    std::array<std::uint32_t, kStackDepth> stack;
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const std::uint32_t index = stack[--top];
+        const Node& node = nodes_[index];
+        if (!near(node.box)) continue;
+        if (node.count == 0) {
+            stack[top++] = node.first;
+            stack[top++] = index + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const Corner& c = corners_[i];
+            Eigen::AlignedBox3d triangle(c.origin);
+            triangle.extend(c.origin + c.edge1).extend(c.origin + c.edge2);
+            if (near(triangle)) faces.push_back(c.face);
+        }
+    }
+    std::ranges::sort(faces);
+    return faces;
+}
+
 bool TriangleBvh::contains(const Eigen::Vector3d& point) const {
     if (nodes_.empty() || !bounds_.contains(point)) return false;
     // Directions without zeros or equal components, so that they are parallel to no edge of a

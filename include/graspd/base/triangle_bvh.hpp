@@ -42,6 +42,10 @@ public:
     std::vector<Hit> all_hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                               double max_distance_m) const;
 
+    /// Faces whose bounding boxes come within a distance of a box, by a test that may report a few
+    /// more (separating axes of the two boxes' faces only). Rising indices.
+    std::vector<std::uint32_t> faces_near(const OrientedBox& box, double within_m) const;
+
     /// True when the point [m] lies inside the closed surface: majority of three ray directions,
     /// each judged by the side of the first face that it meets.
     bool contains(const Eigen::Vector3d& point) const;

@@ -11,6 +11,7 @@
 
 #include "graspd/base/geometry.hpp"
 #include "graspd/base/gripper.hpp"
+#include "graspd/grasp/score_grasp.hpp"
 
 namespace graspd {
 
@@ -97,12 +98,6 @@ struct Contact {
 struct LinearMotion {
     Eigen::Vector3d direction_F = Eigen::Vector3d::Zero();  ///< unit, the way the hand moves
     double distance_m = 0.0;                                ///< [m]
-};
-
-/// One named log-odds contribution to a score.
-struct ScoreTerm {
-    std::string name;
-    double value = 0.0;
 };
 
 /// A ranked grasp; convention tcp_z_approach_x_closing (Gx closing, Gz approach, origin = TCP at

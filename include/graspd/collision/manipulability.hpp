@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "graspd/base/gripper.hpp"
+#include "graspd/base/result.hpp"
+#include "graspd/collision/gripper_collision.hpp"
+
+namespace graspd {
+
+/// How the hand comes and how wide it is open meanwhile.
+struct ManipulabilityConfig {
+    double approach_distance_m = 0.10;    ///< [m] straight along Gz
+    double preshape_margin_m = 0.010;     ///< [m] gap beside each pad while it approaches; halved
+    std::uint32_t preshape_halvings = 2;  ///< so often, where the wider hand does not fit
+    double closing_tolerance_m = 0.0005;  ///< [m] before the contact the closing check ends
+
+    template <class Self, class Visitor>
+    static void describe(Self& self, Visitor&& visit) {
+        visit("approach_distance_m", self.approach_distance_m, 0.0, 1.0);
+        visit("preshape_margin_m", self.preshape_margin_m, 1e-4, 0.5);
+        visit("preshape_halvings", self.preshape_halvings, 0u, 10u);
+        visit("closing_tolerance_m", self.closing_tolerance_m, 1e-5, 0.01);
+    }
+};
+
+/// The part of the motion that is not free.
+enum class MotionBlock : std::uint8_t { kTooWide, kFinger, kPalm, kApproach, kClosing };
+
+/// Whether the hand can get there.
+struct MotionCheck {
+    double open_width_m = 0.0;         ///< [m] the pre-shape with which it is free
+    std::optional<MotionBlock> block;  ///< none when the whole motion is free
+    CollisionPartner partner = CollisionPartner::kObject;  ///< what stands in the way
+    double lacking_m = 0.0;  ///< [m] kTooWide: how much the opening is too small
+
+    bool free() const { return !block; }
+    /// "too_wide", "finger_hits_object", "approach_hits_plane", ...: the typed reason.
+    std::string reason() const;
+};
+
+/// Checks approach at the pre-shape opening, the grasp pose, and the closing of the fingers.
+///
+/// The approach is straight along Gz and closing runs along Gx, both along axes of the parts'
+/// boxes, so the swept volumes are boxes and the check is exact for parallel jaws. Linkage fingers
+/// that travel forward while closing are bounded by the box around both ends of their travel.
+///
+/// Source: Lei & Wisse 2016, Sec. II-F, Fig. 21.
+/// Deviation: the paper compares the hand's length and width with those of the gap.
+///
+/// @param world            in frame W
+/// @param X_WG             grasp frame at the contact
+/// @param contact_width_m  [m] pad gap when both pads touch
+/// @return the widest pre-shape that is free, else the block of the narrowest one
+/// Complexity O(parts log F). Pure, so safe to call from any thread.
+MotionCheck check_motion(const CollisionWorld& world, const Gripper& gripper,
+                         const Eigen::Isometry3d& X_WG, double contact_width_m,
+                         const ManipulabilityConfig& config);
+
+/// The boxes that the hand sweeps from pre-grasp to grasp, in W: palm, left finger, right finger.
+std::vector<OrientedBox> swept_approach(const Gripper& gripper, const Eigen::Isometry3d& X_WG,
+                                        double contact_width_m, double open_width_m,
+                                        double approach_distance_m);
+
+}  // namespace graspd

@@ -1,0 +1,134 @@
+#include "graspd/collision/gripper_collision.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/narrowphase/detail/gjk_solver_libccd.h>
+
+namespace graspd {
+namespace {
+
+constexpr double kDistanceTolerance_m = 1e-10;  // FCL's default over-estimates by up to 0.05 mm
+
+struct Corners {
+    Eigen::Vector3d a, b, c;
+};
+
+Corners corners_of(const TriangleMesh& mesh, std::uint32_t face) {
+    const Triangle& t = mesh.faces[face];
+    return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
+fcl::detail::GJKSolver_libccdd make_solver() {
+    fcl::detail::GJKSolver_libccdd solver;
+    solver.distance_tolerance = kDistanceTolerance_m;
+    return solver;
+}
+
+fcl::Boxd shape_of(const OrientedBox& box) {
+    return fcl::Boxd(2.0 * box.half_extent);
+}
+
+bool hits_body(const CollisionBody& body, const OrientedBox& box) {
+    const auto solver = make_solver();
+    const fcl::Boxd shape = shape_of(box);
+    const std::vector<std::uint32_t> near = body.bvh->faces_near(box, 0.0);
+    const bool hit = std::ranges::any_of(near, [&](std::uint32_t face) {
+        const Corners t = corners_of(*body.mesh, face);
+        return solver.shapeTriangleIntersect(shape, box.pose, t.a, t.b, t.c);
+    });
+    // Without a common triangle the box lies either wholly outside or wholly inside.
+    return hit || body.bvh->contains(box.pose.translation());
+}
+
+/// How far the box's lowest corner stands above the plane; negative below it.
+double height_over(const HalfSpace& plane, const OrientedBox& box) {
+    const Eigen::Vector3d along = box.pose.linear().transpose() * plane.normal;
+    return plane.normal.dot(box.pose.translation()) - plane.offset_m -
+           along.cwiseAbs().dot(box.half_extent);
+}
+
+bool hits_box(const OrientedBox& keep_out, const OrientedBox& box) {
+    return make_solver().shapeIntersect(shape_of(keep_out), keep_out.pose, shape_of(box), box.pose,
+                                        nullptr);
+}
+
+double distance_to_body(const CollisionBody& body, const OrientedBox& box, double most_m) {
+    const auto solver = make_solver();
+    const fcl::Boxd shape = shape_of(box);
+    constexpr double kFirstRing_m = 0.002;
+    for (double ring_m = std::min(kFirstRing_m, most_m);; ring_m = std::min(4.0 * ring_m, most_m)) {
+        double least = most_m;
+        for (const std::uint32_t face : body.bvh->faces_near(box, ring_m)) {
+            const Corners t = corners_of(*body.mesh, face);
+            double distance = 0.0;
+            const bool apart = solver.shapeTriangleDistance(shape, box.pose, t.a, t.b, t.c,
+                                                            &distance, nullptr, nullptr);
+            least = std::min(least, apart ? std::max(0.0, distance) : 0.0);
+        }
+        // What lies beyond the ring is farther away than the ring is wide.
+        if (least <= ring_m || ring_m >= most_m) return least;
+    }
+}
+
+double distance_to_box(const OrientedBox& keep_out, const OrientedBox& box) {
+    double distance = 0.0;
+    const bool apart = make_solver().shapeDistance(shape_of(keep_out), keep_out.pose, shape_of(box),
+                                                   box.pose, &distance, nullptr, nullptr);
+    return apart ? std::max(0.0, distance) : 0.0;
+}
+
+}  // namespace
+
+const char* to_string(CollisionPartner partner) {
+    switch (partner) {
+        case CollisionPartner::kObject: return "object";
+        case CollisionPartner::kObstacle: return "obstacle";
+        case CollisionPartner::kPlane: return "plane";
+        case CollisionPartner::kKeepOut: return "keep_out";
+    }
+    return "unknown";
+}
+
+std::optional<CollisionPartner> find_collision(const CollisionWorld& world,
+                                               const OrientedBox& box) {
+    assert(box.pose.matrix().allFinite() && box.half_extent.allFinite());
+    if (hits_body(world.object, box)) return CollisionPartner::kObject;
+    for (const CollisionBody& obstacle : world.obstacles) {
+        if (hits_body(obstacle, box)) return CollisionPartner::kObstacle;
+    }
+    if (world.plane && height_over(*world.plane, box) <= 0.0) return CollisionPartner::kPlane;
+    for (const OrientedBox& keep_out : world.keep_out) {
+        if (hits_box(keep_out, box)) return CollisionPartner::kKeepOut;
+    }
+    return std::nullopt;
+}
+
+Clearance find_clearance(const CollisionWorld& world, std::span<const OrientedBox> boxes,
+                         double most_m) {
+    Clearance least{most_m, 0, CollisionPartner::kObject};
+    const auto consider = [&](double distance_m, std::size_t box, CollisionPartner partner) {
+        if (distance_m < least.distance_m) least = {std::max(0.0, distance_m), box, partner};
+    };
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        consider(distance_to_body(world.object, boxes[i], least.distance_m), i,
+                 CollisionPartner::kObject);
+        for (const CollisionBody& obstacle : world.obstacles) {
+            consider(distance_to_body(obstacle, boxes[i], least.distance_m), i,
+                     CollisionPartner::kObstacle);
+        }
+        if (world.plane) {
+            consider(height_over(*world.plane, boxes[i]), i, CollisionPartner::kPlane);
+        }
+        for (const OrientedBox& keep_out : world.keep_out) {
+            consider(distance_to_box(keep_out, boxes[i]), i, CollisionPartner::kKeepOut);
+        }
+        if (least.distance_m <= 0.0) break;
+    }
+    return least;
+}
+
+}  // namespace graspd

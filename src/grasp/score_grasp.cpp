@@ -1,0 +1,43 @@
+#include "graspd/grasp/score_grasp.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace graspd {
+namespace {
+
+constexpr double kGravity_m_s2 = 9.81;
+constexpr double kGreatestTorqueRatio = 4.0;  // beyond it a grasp is no worse for being worse
+
+}  // namespace
+
+GraspScore score_grasp(const GraspEvidence& e, const ScoreGraspConfig& config) {
+    const double friction_left = std::clamp(1.0 - e.min_friction / e.friction, 0.0, 1.0);
+    const double weight_torque = e.mass_kg * kGravity_m_s2 * e.lever_m;
+    const double friction_torque = 2.0 * e.friction * e.grip_force_N * e.contact_radius_m;
+    const double torque_ratio = std::min(weight_torque / friction_torque, kGreatestTorqueRatio);
+    const double room = std::clamp(e.clearance_m / config.clearance_scale_m, 0.0, 1.0);
+
+    GraspScore result;
+    result.terms = {
+        {"bias", config.bias},
+        {"friction", config.friction_weight * (2.0 * friction_left - 1.0)},
+        {"balance", -config.balance_weight * e.beta_rad / (0.25 * std::numbers::pi)},
+        {"lever", -config.lever_weight * torque_ratio},
+        {"contact", config.contact_weight * (2.0 * std::min(e.contact_share, 1.0) - 1.0)},
+        {"clearance", config.clearance_weight * room},
+    };
+    double sum = 0.0;
+    for (const ScoreTerm& term : result.terms) sum += term.value;
+    result.score = 1.0 / (1.0 + std::exp(-sum));
+    return result;
+}
+
+double min_grip_force_N(double mass_kg, double friction, double min_friction) {
+    if (!(friction > min_friction)) return std::numeric_limits<double>::infinity();
+    return mass_kg * kGravity_m_s2 / (2.0 * (friction - min_friction));
+}
+
+}  // namespace graspd
