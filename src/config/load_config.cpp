@@ -140,25 +140,8 @@ std::string print_yaml(const std::vector<SettingRef>& settings) {
 
 }  // namespace config_detail
 
-std::uint64_t fnv1a(std::string_view bytes) {
-    constexpr std::uint64_t kOffset = 0xcbf29ce484222325u;  // the function's published constants
-    constexpr std::uint64_t kPrime = 0x100000001b3u;
-    std::uint64_t hash = kOffset;
-    for (const char byte : bytes) {
-        hash ^= static_cast<unsigned char>(byte);
-        hash *= kPrime;
-    }
-    return hash;
-}
-
 std::string config_hash_of(std::string_view printed) {
-    constexpr std::array<char, 17> kDigits = {"0123456789abcdef"};
-    std::uint64_t hash = fnv1a(printed);
-    std::string text(16, '0');
-    for (auto digit = text.rbegin(); digit != text.rend(); ++digit, hash >>= 4) {
-        *digit = kDigits[hash & 15u];
-    }
-    return text;
+    return to_hex(fnv1a(printed));
 }
 
 }  // namespace graspd

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "graspd/base/fnv1a.hpp"
 #include "graspd/base/result.hpp"
 #include "graspd/base/settings.hpp"
 
@@ -105,9 +106,6 @@ template <Settings T>
 std::string print_config(T settings) {
     return config_detail::print_yaml(config_detail::collect(settings));
 }
-
-/// FNV-1a, 64 bit.
-std::uint64_t fnv1a(std::string_view bytes);
 
 /// Sixteen hexadecimal digits that are equal for equal settings: FNV-1a over print_config().
 std::string config_hash_of(std::string_view printed);

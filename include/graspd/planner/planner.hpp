@@ -11,6 +11,9 @@ namespace graspd {
 /// cancelled). A planner that is told so answers PARTIAL with its last completed round.
 using StopQuery = std::function<bool()>;
 
+/// The key under which an object's geometry is known: a hash of its points and faces as received.
+std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O);
+
 /// Plans grasps for one object: the paper from II-A to II-F.
 ///
 /// Never throws for what an input can cause: every outcome is a status with a message. Pure apart

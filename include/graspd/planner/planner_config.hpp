@@ -1,14 +1,21 @@
 #pragma once
 
+#include "graspd/collision/manipulability.hpp"
 #include "graspd/concavity/shortest_path_concavity.hpp"
 #include "graspd/contour/boundary_points.hpp"
 #include "graspd/contour/concave_hull.hpp"
 #include "graspd/grasp/force_balance.hpp"
+#include "graspd/grasp/grasp_candidates.hpp"
 #include "graspd/grasp/grasp_sides.hpp"
+#include "graspd/grasp/local_cloud.hpp"
+#include "graspd/grasp/opposite_candidates.hpp"
+#include "graspd/grasp/rank_grasps.hpp"
+#include "graspd/grasp/score_grasp.hpp"
 #include "graspd/grasp/step_points.hpp"
 #include "graspd/mesh/condition_mesh.hpp"
 #include "graspd/mesh/sample_surface.hpp"
 #include "graspd/mesh/triangulate_cloud.hpp"
+#include "graspd/planner/search_config.hpp"
 #include "graspd/regions/cluster_concavities.hpp"
 #include "graspd/regions/concavity_frame.hpp"
 #include "graspd/regions/extract_concave_areas.hpp"
@@ -29,6 +36,13 @@ struct PlannerConfig {
     StepPointsConfig step_points;
     GraspSidesConfig grasp_sides;
     ForceBalanceConfig force_balance;
+    GraspCandidatesConfig grasp_candidates;
+    OppositeCandidatesConfig opposite_candidates;
+    LocalCloudConfig local_cloud;
+    ManipulabilityConfig manipulability;
+    ScoreGraspConfig score_grasp;
+    RankGraspsConfig rank_grasps;
+    SearchConfig search;
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
@@ -44,6 +58,13 @@ struct PlannerConfig {
         visit("step_points", self.step_points);
         visit("grasp_sides", self.grasp_sides);
         visit("force_balance", self.force_balance);
+        visit("grasp_candidates", self.grasp_candidates);
+        visit("opposite_candidates", self.opposite_candidates);
+        visit("local_cloud", self.local_cloud);
+        visit("manipulability", self.manipulability);
+        visit("score_grasp", self.score_grasp);
+        visit("rank_grasps", self.rank_grasps);
+        visit("search", self.search);
     }
 };
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+namespace graspd {
+
+/// How much the planner looks at. All loops are bounded by these counts, never by the clock.
+struct SearchConfig {
+    std::uint32_t levels = 3;      ///< salience thresholds: salient_fraction x level_ratio^k
+    double level_ratio = 0.6;      ///< [1] from one threshold to the next
+    double level_growth = 1.5;     ///< [1] a region of a lower threshold counts as new from so many
+                                   ///< times the samples of the region within it
+    std::uint32_t planes = 3;      ///< of a concavity's three plane pairs, the best so many
+    std::uint32_t approaches = 8;  ///< directions about each closing axis
+    std::uint32_t insertions = 2;  ///< depths of the pads; 1: their centres at the contact
+    double insertion_tip_offsets = 0.6;  ///< [1] further depth per insertion in tip offsets
+    std::uint32_t probe_samples = 800;   ///< of the surface, for opposite candidates
+    std::uint32_t boundary_pairs = 32;   ///< closing axes per concavity that are followed up
+    std::uint32_t opposite_pairs = 96;   ///< closing axes of wall and of whole_object each
+    double lever_weight_rad_m = 4.0;     ///< [rad/m] of the lever against the lean, when axes are
+                                         ///< chosen
+    double most_clearance_m = 0.05;      ///< [m] clearance is measured up to here
+
+    template <class Self, class Visitor>
+    static void describe(Self& self, Visitor&& visit) {
+        visit("levels", self.levels, 1u, 20u);
+        visit("level_ratio", self.level_ratio, 0.05, 0.99);
+        visit("level_growth", self.level_growth, 1.0, 100.0);
+        visit("planes", self.planes, 1u, 3u);
+        visit("approaches", self.approaches, 1u, 360u);
+        visit("insertions", self.insertions, 1u, 10u);
+        visit("insertion_tip_offsets", self.insertion_tip_offsets, 0.0, 2.0);
+        visit("probe_samples", self.probe_samples, 100u, 1000000u);
+        visit("boundary_pairs", self.boundary_pairs, 1u, 100000u);
+        visit("opposite_pairs", self.opposite_pairs, 1u, 100000u);
+        visit("lever_weight_rad_m", self.lever_weight_rad_m, 0.0, 100.0);
+        visit("most_clearance_m", self.most_clearance_m, 1e-3, 1.0);
+    }
+};
+
+}  // namespace graspd

@@ -1,0 +1,149 @@
+#include "boundary_axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "graspd/contour/order_boundary.hpp"
+#include "graspd/contour/project_points.hpp"
+
+namespace graspd::planner_detail {
+namespace {
+
+std::vector<Eigen::Vector3d> points_of(const SurfaceSamples& surface,
+                                       const std::vector<std::uint32_t>& indices) {
+    std::vector<Eigen::Vector3d> points;
+    points.reserve(indices.size());
+    for (const std::uint32_t i : indices) points.push_back(surface.samples[i].point);
+    return points;
+}
+
+/// A concavity's samples in one working frame.
+struct WorkingPlane {
+    const Eigen::Isometry3d& X_PW;
+    std::vector<Eigen::Vector3d> enlarged_P;
+    std::vector<Eigen::Vector2d> cluster_W, enlarged_W;
+    double spacing_m = 0.0;
+};
+
+/// Section II-D: the ordered boundary points, none where the outlines are degenerate.
+std::vector<Eigen::Vector2d> ordered_boundary(const WorkingPlane& plane,
+                                              const PlannerConfig& config, StageLog& log) {
+    constexpr const char* kHull = "contour/concave_hull";
+    const auto outline = [&](const std::vector<Eigen::Vector2d>& points) {
+        const auto hull = log.run(kHull, points.size(), [&] {
+            return concave_hull(points, plane.spacing_m, config.concave_hull);
+        });
+        if (!hull) return std::vector<Eigen::Vector2d>{};
+        log.out(kHull, hull.value().outline.size());
+        return hull.value().outline;
+    };
+    const auto cluster_outline = outline(plane.cluster_W);
+    const auto enlarged_outline = outline(plane.enlarged_W);
+    if (cluster_outline.empty() || enlarged_outline.empty()) return {};
+    const auto boundary = log.run("contour/boundary_points", cluster_outline.size(), [&] {
+        return boundary_points(cluster_outline, enlarged_outline, plane.spacing_m,
+                               config.boundary_points);
+    });
+    if (!boundary) return {};
+    log.out("contour/boundary_points", boundary.value().size());
+    auto ordered = log.run("contour/order_boundary", boundary.value().size(),
+                           [&] { return order_boundary(boundary.value()); });
+    log.out("contour/order_boundary", ordered.size());
+    return ordered;
+}
+
+/// Section II-E: step points and the candidates that start from them.
+std::vector<GraspCandidate> candidates_on(const std::vector<Eigen::Vector2d>& boundary,
+                                          double spacing_m, const Gripper& gripper,
+                                          const PlannerConfig& config, StageLog& log) {
+    if (boundary.size() < 2) return {};
+    const double step_m = config.step_points.step_finger_widths * gripper.finger_width_m;
+    const double max_gap_m = config.step_points.max_gap_spacings * spacing_m;
+    const double least_width_m = std::max(gripper.min_width_m, step_m);
+    const auto steps = log.run("grasp/step_points", boundary.size(), [&] {
+        return step_points(boundary, step_m, least_width_m, max_gap_m);
+    });
+    if (!steps) return {};
+    log.out("grasp/step_points", steps.value().size());
+    const auto candidates = log.run("grasp/grasp_candidates", steps.value().size(), [&] {
+        return grasp_candidates(boundary, steps.value(), gripper.max_width_m, max_gap_m,
+                                config.grasp_candidates);
+    });
+    if (!candidates) return {};
+    log.out("grasp/grasp_candidates", candidates.value().size());
+    return candidates.value();
+}
+
+/// Mean height over the plane of the samples within two spacings of a place; that of the nearest
+/// one when there is none.
+double height_at(const WorkingPlane& plane, const Eigen::Vector2d& place) {
+    const Eigen::Vector3d normal = plane.X_PW.linear().col(2);
+    const double within_m = 2.0 * plane.spacing_m;
+    double sum = 0.0, count = 0.0, nearest = std::numeric_limits<double>::infinity();
+    double nearest_height = 0.0;
+    for (std::size_t i = 0; i < plane.enlarged_W.size(); ++i) {
+        const double distance = (plane.enlarged_W[i] - place).norm();
+        const double height = normal.dot(plane.enlarged_P[i] - plane.X_PW.translation());
+        if (distance <= within_m) {
+            sum += height;
+            count += 1.0;
+        }
+        if (distance < nearest) {
+            nearest = distance;
+            nearest_height = height;
+        }
+    }
+    return count > 0.0 ? sum / count : nearest_height;
+}
+
+ClosingAxis lifted(const WorkingPlane& plane, const GraspCandidate& candidate) {
+    const double height =
+        0.5 * (height_at(plane, candidate.left_W) + height_at(plane, candidate.right_W));
+    const auto lift = [&](const Eigen::Vector2d& place) {
+        return Eigen::Vector3d(plane.X_PW * Eigen::Vector3d(place.x(), place.y(), height));
+    };
+    ClosingAxis axis;
+    axis.left_P = lift(candidate.left_W);
+    axis.right_P = lift(candidate.right_W);
+    const Eigen::Vector3d closing = (axis.right_P - axis.left_P).normalized();
+    axis.reference_P = plane.X_PW.linear().col(2).cross(closing);  // Z in the plane (Fig. 16)
+    return axis;
+}
+
+}  // namespace
+
+std::vector<ClosingAxis> boundary_axes(const Concavity& concavity, std::int32_t index,
+                                       const SurfaceSamples& surface, const PreparedObject& object,
+                                       const Gripper& gripper, const PlannerConfig& config,
+                                       StageLog& log) {
+    constexpr const char* kFrame = "regions/concavity_frame";
+    const auto salient_P = points_of(surface, concavity.salient);
+    const auto frame = log.run(kFrame, salient_P.size(), [&] {
+        return concavity_frame(salient_P, *object.tree_P, gripper.finger_length_m,
+                               config.concavity_frame);
+    });
+    if (!frame) return {};
+    log.out(kFrame, config.search.planes);
+
+    std::vector<ClosingAxis> axes;
+    const auto enlarged_P = points_of(surface, concavity.enlarged);
+    for (std::uint32_t i = 0; i < config.search.planes; ++i) {
+        const Eigen::Isometry3d& X_PW = frame.value().planes[i].X_OW;
+        const WorkingPlane plane{X_PW, enlarged_P, project_points(salient_P, X_PW),
+                                 project_points(enlarged_P, X_PW), surface.spacing_m};
+        const auto boundary = ordered_boundary(plane, config, log);
+        for (const GraspCandidate& candidate :
+             candidates_on(boundary, surface.spacing_m, gripper, config, log)) {
+            ClosingAxis axis = lifted(plane, candidate);
+            axis.source = kBoundary;
+            axis.concavity = index;
+            axis.depth_m = concavity.depth_m;
+            axes.push_back(axis);
+        }
+    }
+    return axes;
+}
+
+}  // namespace graspd::planner_detail

@@ -1,0 +1,177 @@
+#include "evaluate_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace graspd::planner_detail {
+namespace {
+
+constexpr double kRecheck_m = 2e-4;  // a hand moved by less than this needs no second motion check
+
+/// Local frame of Figs. 16-17: Gx along the axis, Gz turned about it from the reference direction.
+Eigen::Isometry3d local_frame(const ClosingAxis& axis, double turn_rad, double deeper_m) {
+    const Eigen::Vector3d x = (axis.right_P - axis.left_P).normalized();
+    const Eigen::Vector3d z0 = axis.reference_P;
+    const Eigen::Vector3d z =
+        (std::cos(turn_rad) * z0 + std::sin(turn_rad) * x.cross(z0)).normalized();
+    Eigen::Isometry3d X_PG = Eigen::Isometry3d::Identity();
+    X_PG.linear() << x, z.cross(x), z;
+    X_PG.translation() = 0.5 * (axis.left_P + axis.right_P) + deeper_m * z;
+    return X_PG;
+}
+
+bool approach_allowed(const Judgement& judgement, const Eigen::Isometry3d& X_PG) {
+    const auto& cones = judgement.request.approach_cones;
+    const Eigen::Vector3d z_F = (judgement.X_FP.linear() * X_PG.linear().col(2));
+    return cones.empty() || std::ranges::any_of(cones, [&](const ApproachCone& cone) {
+               return std::acos(std::clamp(z_F.dot(cone.axis_F), -1.0, 1.0)) <= cone.half_angle_rad;
+           });
+}
+
+/// One pose under examination; each step returns false after it has counted the reason.
+class Examination {
+public:
+    Examination(const ClosingAxis& axis, const Judgement& judgement, Rejections& rejections,
+                StageLog& log)
+        : judgement_(judgement), rejections_(rejections), log_(log) {
+        grasp_.axis = axis;
+        grasp_.gripper = &judgement.gripper;
+        grasp_.width_m = (axis.right_P - axis.left_P).norm();
+    }
+
+    bool motion_free();
+    bool close();
+    bool balance();
+    void grade();
+
+    GradedGrasp grasp_;
+
+private:
+    bool reject(const char* reason) {
+        rejections_.add(reason);
+        return false;
+    }
+    const Judgement& judgement_;
+    Rejections& rejections_;
+    StageLog& log_;
+    LocalCloud cloud_;
+};
+
+bool Examination::motion_free() {
+    const MotionCheck check = log_.run("collision/manipulability", 1, [&] {
+        return check_motion(judgement_.world_P, judgement_.gripper, grasp_.X_PG, grasp_.width_m,
+                            judgement_.config.manipulability);
+    });
+    if (check.free()) {
+        grasp_.open_width_m = check.open_width_m;
+        log_.out("collision/manipulability", 1);
+        return true;
+    }
+    if (check.block == MotionBlock::kTooWide) {
+        rejections_.add_miss(check.reason(), grasp_.X_PG, check.lacking_m, "m",
+                             judgement_.gripper.max_width_m);
+    } else {
+        rejections_.add(check.reason());
+    }
+    return false;
+}
+
+/// The fingers close: where the pads touch, how wide apart, and the hand in the middle of that.
+bool Examination::close() {
+    const Gripper& gripper = judgement_.gripper;
+    const PadFootprint footprint{0.5 * gripper.finger_width_m, gripper.tip_offset_m,
+                                 0.5 * grasp_.open_width_m};
+    const auto cloud = log_.run("grasp/local_cloud", 1, [&] {
+        return local_cloud(judgement_.object.mesh_P, *judgement_.object.tree_P, grasp_.X_PG,
+                           footprint, judgement_.config.local_cloud);
+    });
+    if (!cloud) return reject("no_contact");
+    cloud_ = cloud.value();
+    const double width_m = cloud_.right.x_G - cloud_.left.x_G;
+    if (width_m <= gripper.min_width_m) return reject("too_thin");
+    log_.out("grasp/local_cloud", 1);
+    const double shift_m = 0.5 * (cloud_.left.x_G + cloud_.right.x_G);
+    const bool moved =
+        std::abs(shift_m) > kRecheck_m || std::abs(width_m - grasp_.width_m) > kRecheck_m;
+    grasp_.X_PG.translation() += shift_m * grasp_.X_PG.linear().col(0);
+    grasp_.width_m = width_m;
+    for (Eigen::Vector3d& point : cloud_.points_G) point.x() -= shift_m;
+    for (PadTouch* touch : {&cloud_.left, &cloud_.right}) {
+        touch->x_G -= shift_m;
+        touch->point_G.x() -= shift_m;
+    }
+    return !moved || motion_free();
+}
+
+/// Section II-F: the two sides, the angle between their lines, and the friction they need.
+bool Examination::balance() {
+    std::vector<Eigen::Vector2d> flat;
+    flat.reserve(cloud_.points_G.size());
+    for (const Eigen::Vector3d& point : cloud_.points_G) flat.push_back(point.head<2>());
+    const auto sides = log_.run("grasp/grasp_sides", flat.size(), [&] {
+        return grasp_sides(flat, cloud_.line_spacing_m, judgement_.config.grasp_sides);
+    });
+    if (!sides) return reject("contact_too_small");
+    const auto balance = log_.run("grasp/force_balance", 1, [&] {
+        return evaluate_force_balance(sides.value().left_G, sides.value().right_G,
+                                      judgement_.config.force_balance);
+    });
+    if (!balance) return reject("side_not_straight");
+    GraspEvidence& evidence = grasp_.evidence;
+    evidence.beta_rad = balance.value().beta_rad;
+    evidence.friction = judgement_.request.options.friction;
+    evidence.min_friction = min_friction(cloud_.left.point_G, cloud_.left.normal_G,
+                                         cloud_.right.point_G, cloud_.right.normal_G);
+    if (evidence.min_friction <= evidence.friction) {
+        log_.out("grasp/force_balance", 1);
+        return true;
+    }
+    rejections_.add_miss("slips", grasp_.X_PG, evidence.min_friction - evidence.friction, "1",
+                         evidence.friction);
+    return false;
+}
+
+void Examination::grade() {
+    GraspEvidence& evidence = grasp_.evidence;
+    const Eigen::Vector3d arm = judgement_.center_of_mass_P - grasp_.X_PG.translation();
+    evidence.lever_m = arm.cross(grasp_.X_PG.linear().col(0)).norm();
+    evidence.mass_kg = judgement_.mass_kg;
+    evidence.grip_force_N = judgement_.request.options.grip_force_N;
+    evidence.contact_share = std::min(cloud_.left.share, cloud_.right.share);
+    evidence.contact_radius_m = 0.5 * judgement_.gripper.finger_width_m;
+    grasp_.score = score_grasp(evidence, judgement_.config.score_grasp);
+    const PadTouch* touches[] = {&cloud_.left, &cloud_.right};
+    for (std::size_t i = 0; i < 2; ++i) {
+        grasp_.contacts_P[i] = {grasp_.X_PG * touches[i]->point_G,
+                                grasp_.X_PG.linear() * touches[i]->normal_G};
+    }
+}
+
+}  // namespace
+
+std::vector<GradedGrasp> evaluate_axis(const ClosingAxis& axis, const Judgement& judgement,
+                                       Rejections& rejections, StageLog& log) {
+    const SearchConfig& search = judgement.config.search;
+    std::vector<GradedGrasp> grasps;
+    for (std::uint32_t turn = 0; turn < search.approaches; ++turn) {
+        const double turn_rad = 2.0 * std::numbers::pi * turn / search.approaches;
+        for (std::uint32_t depth = 0; depth < search.insertions; ++depth) {
+            const double deeper_m =
+                depth * search.insertion_tip_offsets * judgement.gripper.tip_offset_m;
+            Examination pose(axis, judgement, rejections, log);
+            pose.grasp_.X_PG = local_frame(axis, turn_rad, deeper_m);
+            if (!approach_allowed(judgement, pose.grasp_.X_PG)) {
+                rejections.add("outside_approach_cones");
+                continue;
+            }
+            if (!pose.motion_free() || !pose.close() || !pose.balance()) continue;
+            pose.grade();
+            grasps.push_back(pose.grasp_);
+        }
+    }
+    return grasps;
+}
+
+}  // namespace graspd::planner_detail

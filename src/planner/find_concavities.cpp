@@ -1,0 +1,57 @@
+#include "find_concavities.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace graspd::planner_detail {
+namespace {
+
+/// Whether a region of a lower threshold is a known one that has merely grown by its margin.
+bool repeats(const Concavity& region, const std::vector<Concavity>& known, double growth) {
+    return std::ranges::any_of(known, [&](const Concavity& other) {
+        return std::ranges::includes(region.salient, other.salient) &&
+               static_cast<double>(region.salient.size()) <
+                   growth * static_cast<double>(other.salient.size());
+    });
+}
+
+}  // namespace
+
+Result<std::vector<Concavity>> find_concavities(const SurfaceSamples& surface,
+                                                double finger_thickness_m,
+                                                const PlannerConfig& config, StageLog& log) {
+    constexpr const char* kExtract = "regions/extract_concave_areas";
+    constexpr const char* kCluster = "regions/cluster_concavities";
+    std::vector<Concavity> found;
+    ExtractConcaveAreasConfig extract = config.extract_concave_areas;
+    double threshold_before = -1.0;
+    for (std::uint32_t level = 0; level < config.search.levels; ++level) {
+        extract.salient_fraction = config.extract_concave_areas.salient_fraction *
+                                   std::pow(config.search.level_ratio, level);
+        const auto areas = log.run(kExtract, surface.samples.size(), [&] {
+            return extract_concave_areas(surface.samples, finger_thickness_m, extract);
+        });
+        if (!areas) return areas.error();
+        if (areas.value().salient.empty() || areas.value().threshold_m == threshold_before) break;
+        threshold_before = areas.value().threshold_m;
+        log.out(kExtract, areas.value().salient.size());
+
+        const auto clusters = log.run(kCluster, areas.value().salient.size(), [&] {
+            return cluster_concavities(surface.samples, areas.value(), surface.spacing_m,
+                                       config.cluster_concavities);
+        });
+        if (!clusters) return clusters.error();
+        const std::vector<Concavity> known = found;
+        for (const Concavity& cluster : clusters.value()) {
+            if (!repeats(cluster, known, config.search.level_growth)) found.push_back(cluster);
+        }
+    }
+    std::ranges::stable_sort(found, std::ranges::greater{}, &Concavity::depth_m);
+    if (found.size() > config.cluster_concavities.max_concavities) {
+        found.resize(config.cluster_concavities.max_concavities);
+    }
+    log.out(kCluster, found.size());
+    return found;
+}
+
+}  // namespace graspd::planner_detail

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "graspd/mesh/sample_surface.hpp"
+#include "graspd/planner/planner_config.hpp"
+#include "stage_log.hpp"
+
+namespace graspd::planner_detail {
+
+/// The concavities of a surface at several salience thresholds, deepest first, none when convex.
+///
+/// Source: Lei & Wisse 2016, Sec. II-B.
+/// Deviation: one threshold hides the shallower concavities of an object that has one deep one.
+/// Lower thresholds follow; a region that only repeats a known one, a little larger, is left out.
+Result<std::vector<Concavity>> find_concavities(const SurfaceSamples& surface,
+                                                double finger_thickness_m,
+                                                const PlannerConfig& config, StageLog& log);
+
+}  // namespace graspd::planner_detail

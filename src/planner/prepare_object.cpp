@@ -1,0 +1,91 @@
+#include "prepare_object.hpp"
+
+#include "graspd/mesh/principal_frame.hpp"
+
+namespace graspd::planner_detail {
+namespace {
+
+double ray_tolerance_m(const TriangleMesh& mesh, const ConcavityConfig& config) {
+    return mesh_diagonal_m(mesh) * config.start_offset / kOffsetOverRayTolerance;
+}
+
+/// The mesh of the request, or the one that its cloud's points span.
+Result<TriangleMesh> surface_of(const std::variant<TriangleMesh, PointCloud>& object,
+                                const PlannerConfig& config, StageLog& log,
+                                std::vector<Finding>& findings) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(&object)) return *mesh;
+    const auto& cloud = std::get<PointCloud>(object);
+    auto surface = log.run("mesh/triangulate_cloud", cloud.points.size(),
+                           [&] { return triangulate_cloud(cloud, config.triangulate_cloud); });
+    if (!surface) return surface.error();
+    log.out("mesh/triangulate_cloud", surface.value().mesh.faces.size());
+    findings = std::move(surface.value().findings);
+    return std::move(surface.value().mesh);
+}
+
+}  // namespace
+
+Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointCloud>& object_O,
+                                      const PlannerConfig& config, StageLog& log) {
+    PreparedObject object;
+    const auto soup = surface_of(object_O, config, log, object.findings);
+    if (!soup) return soup.error();
+    const auto closed = log.run("mesh/condition_mesh", soup.value().faces.size(), [&] {
+        return condition_mesh(soup.value(), config.condition_mesh);
+    });
+    if (!closed) return closed.error();
+    const ConditionedMesh& solid = closed.value();
+    log.out("mesh/condition_mesh", solid.mesh.faces.size());
+    object.findings.insert(object.findings.end(), solid.findings.begin(), solid.findings.end());
+    object.volume_m3 = solid.volume_m3;
+
+    const auto frame = log.run("mesh/principal_frame", solid.mesh.faces.size(),
+                               [&] { return principal_frame(solid.mesh); });
+    if (!frame) return frame.error();
+    log.out("mesh/principal_frame", 1);
+    object.X_OP = frame.value();
+    object.mesh_P = transformed(object.X_OP.inverse(), solid.mesh);
+    object.center_of_mass_P = object.X_OP.inverse() * solid.center_of_mass;
+
+    auto hull = log.run("concavity/outer_hull", object.mesh_P.vertices.size(),
+                        [&] { return outer_hull(object.mesh_P.vertices); });
+    if (!hull) return hull.error();
+    object.hull_P = std::move(hull).value();
+    log.out("concavity/outer_hull", object.hull_P.facets.size());
+
+    object.tree_P = log.run("base/triangle_bvh", object.mesh_P.faces.size(), [&] {
+        return std::make_shared<const TriangleBvh>(
+            object.mesh_P, ray_tolerance_m(object.mesh_P, config.shortest_path_concavity));
+    });
+    log.out("base/triangle_bvh", 1);
+    auto field = log.run("concavity/shortest_path_concavity", object.mesh_P.vertices.size(), [&] {
+        return shortest_path_concavity(object.mesh_P, object.hull_P, *object.tree_P,
+                                       config.shortest_path_concavity);
+    });
+    if (!field) return field.error();
+    object.field = std::move(field).value();
+    log.out("concavity/shortest_path_concavity", object.field.value_m.size());
+    return object;
+}
+
+Surroundings::Surroundings(const PlanRequest& request, const PreparedObject& object,
+                           const Eigen::Isometry3d& X_WF) {
+    bodies_.reserve(request.obstacles.size());
+    for (const Obstacle& obstacle : request.obstacles) {
+        Body body{transformed(X_WF * obstacle.X_FO, obstacle.mesh), nullptr};
+        body.tree = std::make_unique<TriangleBvh>(body.mesh, 1e-6 * mesh_diagonal_m(body.mesh));
+        bodies_.push_back(std::move(body));
+    }
+    world_.object = {&object.mesh_P, object.tree_P.get()};
+    for (const Body& body : bodies_) world_.obstacles.push_back({&body.mesh, body.tree.get()});
+    if (request.support_plane) {
+        const Eigen::Vector3d normal = X_WF.linear() * request.support_plane->normal_F;
+        world_.plane =
+            HalfSpace{normal, request.support_plane->offset_m + normal.dot(X_WF.translation())};
+    }
+    for (const OrientedBox& box : request.keep_out_F) {
+        world_.keep_out.push_back({X_WF * box.pose, box.half_extent});
+    }
+}
+
+}  // namespace graspd::planner_detail

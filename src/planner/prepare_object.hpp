@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "graspd/collision/gripper_collision.hpp"
+#include "graspd/concavity/outer_hull.hpp"
+#include "graspd/concavity/shortest_path_concavity.hpp"
+#include "graspd/planner/planner_config.hpp"
+#include "stage_log.hpp"
+
+namespace graspd::planner_detail {
+
+/// The object as all later stages see it: closed, in its principal frame P, with its concavity.
+/// Nothing here depends on the gripper.
+struct PreparedObject {
+    TriangleMesh mesh_P;  ///< [m]
+    Eigen::Isometry3d X_OP = Eigen::Isometry3d::Identity();
+    std::shared_ptr<const TriangleBvh> tree_P;  ///< over mesh_P
+    OuterHull hull_P;
+    ConcavityField field;                                        ///< per vertex of mesh_P
+    double volume_m3 = 0.0;                                      ///< [m^3]
+    Eigen::Vector3d center_of_mass_P = Eigen::Vector3d::Zero();  ///< [m] uniform density
+    std::vector<Finding> findings;
+};
+
+/// Section II-A: from a cloud or a mesh as received to its concavity.
+/// @return the first stage's error
+Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointCloud>& object_O,
+                                      const PlannerConfig& config, StageLog& log);
+
+/// A request's surroundings with their trees, in one frame. Not movable: the world points inside.
+class Surroundings {
+public:
+    /// @param X_WF  pose of the request's frame F in the wanted frame W
+    Surroundings(const PlanRequest& request, const PreparedObject& object,
+                 const Eigen::Isometry3d& X_WF);
+    Surroundings(const Surroundings&) = delete;
+    Surroundings& operator=(const Surroundings&) = delete;
+
+    const CollisionWorld& world() const { return world_; }
+
+private:
+    struct Body {
+        TriangleMesh mesh;
+        std::unique_ptr<TriangleBvh> tree;
+    };
+    std::vector<Body> bodies_;
+    CollisionWorld world_;
+};
+
+}  // namespace graspd::planner_detail

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "graspd/planner/plan_types.hpp"
+
+namespace graspd::planner_detail {
+
+/// What the stages did and how long they took, in the order of their first call.
+class StageLog {
+public:
+    /// Runs a stage and adds its wall time and its count of inputs.
+    template <class Work>
+    auto run(const char* name, std::uint64_t in, Work&& work) {
+        const auto start = std::chrono::steady_clock::now();
+        auto result = std::forward<Work>(work)();
+        const std::chrono::duration<double, std::milli> taken =
+            std::chrono::steady_clock::now() - start;
+        StageReport& stage = entry(name);
+        stage.ms += taken.count();
+        stage.in += in;
+        return result;
+    }
+    /// Adds to a stage's count of outputs.
+    void out(const char* name, std::uint64_t count) { entry(name).out += count; }
+
+    std::vector<StageReport> take() { return std::move(stages_); }
+
+private:
+    StageReport& entry(const char* name) {
+        const auto found = std::ranges::find(stages_, name, &StageReport::name);
+        if (found != stages_.end()) return *found;
+        stages_.push_back({name, 0.0, 0, 0});
+        return stages_.back();
+    }
+    std::vector<StageReport> stages_;
+};
+
+}  // namespace graspd::planner_detail
