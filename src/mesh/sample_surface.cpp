@@ -33,13 +33,15 @@ PlanError error(PlanErrorCode code, const std::string& detail) {
 struct Face {
     std::array<Eigen::Vector3d, 3> corner;
     std::array<double, 3> value_m{};
-    Eigen::Vector3d normal;  ///< unit; zero for a face without area
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit; zero for a face without area
     double area_m2 = 0.0;
     int axis = 2;  ///< dominant
 };
 
 bool precedes(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+    if (a.x() != b.x()) return a.x() < b.x();
+    if (a.y() != b.y()) return a.y() < b.y();
+    return a.z() < b.z();
 }
 
 int dominant_axis(const Eigen::Vector3d& normal) {
@@ -65,10 +67,25 @@ Face make_face(const TriangleMesh& mesh, std::span<const double> value_m, const 
     }
     const Eigen::Vector3d cross =
         (face.corner[1] - face.corner[0]).cross(face.corner[2] - face.corner[0]);
-    face.area_m2 = 0.5 * cross.stableNorm();
-    face.normal = turned ? -cross.stableNormalized() : cross.stableNormalized();
+    const double norm = cross.norm();
+    face.area_m2 = 0.5 * norm;
+    if (norm > 0.0) face.normal = (turned ? -1.0 : 1.0) * cross / norm;
     face.axis = dominant_axis(face.normal);
     return face;
+}
+
+/// What is wrong with a corner of a face, if anything.
+std::string complaint(const TriangleMesh& mesh, std::span<const double> value_m, std::size_t face,
+                      std::uint32_t v) {
+    std::ostringstream text;
+    if (v >= mesh.vertices.size()) {
+        text << "face " << face << " names vertex " << v << " of " << mesh.vertices.size();
+    } else if (!mesh.vertices[v].allFinite()) {
+        text << "vertex " << v << " = (" << mesh.vertices[v].transpose() << ") is not finite";
+    } else {
+        text << "value_m[" << v << "] = " << value_m[v] << " is not a length";
+    }
+    return text.str();
 }
 
 std::optional<PlanError> check_values(const TriangleMesh& mesh, std::span<const double> value_m) {
@@ -79,18 +96,9 @@ std::optional<PlanError> check_values(const TriangleMesh& mesh, std::span<const 
     }
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         for (const std::uint32_t v : mesh.faces[f]) {
-            std::ostringstream text;
-            if (v >= mesh.vertices.size()) {
-                text << "face " << f << " names vertex " << v << " of " << mesh.vertices.size();
-            } else if (!mesh.vertices[v].allFinite()) {
-                text << "vertex " << v << " = (" << mesh.vertices[v].transpose()
-                     << ") is not finite";
-            } else if (!(value_m[v] >= 0.0)) {
-                text << "value_m[" << v << "] = " << value_m[v] << " is not a length";
-            } else {
-                continue;
-            }
-            return error(PlanErrorCode::kInvalidInput, text.str());
+            const bool good = v < mesh.vertices.size() && mesh.vertices[v].allFinite() &&
+                              value_m[v] >= 0.0;  // a NaN is not
+            if (!good) return error(PlanErrorCode::kInvalidInput, complaint(mesh, value_m, f, v));
         }
     }
     return std::nullopt;
