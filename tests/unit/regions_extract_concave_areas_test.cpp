@@ -15,6 +15,7 @@ namespace graspd {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr ExtractConcaveAreasConfig kHalf{.salient_fraction = 0.5, .enlarged_fraction = 0.5};
 
 std::vector<SurfaceSample> samples_with(const std::vector<double>& concavity_m) {
     std::vector<SurfaceSample> samples(concavity_m.size());
@@ -44,7 +45,7 @@ std::vector<SurfaceSample> channel_samples() {
 // (8).
 TEST(ExtractConcaveAreas, ChannelByHand) {
     const auto samples = channel_samples();
-    const auto areas = extract_concave_areas(samples, 0.01, {});
+    const auto areas = extract_concave_areas(samples, 0.01, kHalf);
     ASSERT_TRUE(areas.ok());
     EXPECT_DOUBLE_EQ(areas.value().threshold_m, 0.0155);
     EXPECT_DOUBLE_EQ(areas.value().enlarged_threshold_m, 0.00775);
@@ -59,7 +60,7 @@ TEST(ExtractConcaveAreas, ChannelByHand) {
 // Both thresholds are inclusive; 0.25 and 0.5 are exact in binary.
 TEST(ExtractConcaveAreas, ThresholdsAreInclusive) {
     const auto areas =
-        extract_concave_areas(samples_with({0.249, 0.25, 0.499, 0.5, 1.0}), 0.01, {});
+        extract_concave_areas(samples_with({0.249, 0.25, 0.499, 0.5, 1.0}), 0.01, kHalf);
     ASSERT_TRUE(areas.ok());
     EXPECT_EQ(areas.value().threshold_m, 0.5);
     EXPECT_EQ(areas.value().salient, (std::vector<std::uint32_t>{3, 4}));
@@ -69,16 +70,24 @@ TEST(ExtractConcaveAreas, ThresholdsAreInclusive) {
 // What half a finger does not fit into is no concavity: dents of 3.9 mm for fingers of 8 mm leave
 // both sets empty, of 4 mm not, and then the least depth is the threshold, not half the largest.
 TEST(ExtractConcaveAreas, ShallowDentsAreNoConcavity) {
-    const auto shallow = extract_concave_areas(samples_with({0.0, 0.0039, 0.003}), 0.008, {});
+    const auto shallow = extract_concave_areas(samples_with({0.0, 0.0039, 0.003}), 0.008, kHalf);
     ASSERT_TRUE(shallow.ok());
     EXPECT_EQ(shallow.value().threshold_m, 0.004);
     EXPECT_TRUE(shallow.value().salient.empty());
     EXPECT_TRUE(shallow.value().enlarged.empty());
-    const auto deep = extract_concave_areas(samples_with({0.0, 0.004, 0.003}), 0.008, {});
+    const auto deep = extract_concave_areas(samples_with({0.0, 0.004, 0.003}), 0.008, kHalf);
     ASSERT_TRUE(deep.ok());
     EXPECT_EQ(deep.value().threshold_m, 0.004);
     EXPECT_EQ(deep.value().salient, (std::vector<std::uint32_t>{1}));
     EXPECT_EQ(deep.value().enlarged, (std::vector<std::uint32_t>{1, 2}));
+}
+
+// By default everything with a way out may be surroundings, however convex.
+TEST(ExtractConcaveAreas, ConvexPartsAreSurroundings) {
+    const auto areas = extract_concave_areas(samples_with({0.0, 0.02, kInfinity, 0.001}), 0.01, {});
+    ASSERT_TRUE(areas.ok());
+    EXPECT_EQ(areas.value().enlarged_threshold_m, 0.0);
+    EXPECT_EQ(areas.value().enlarged, (std::vector<std::uint32_t>{0, 1, 3}));
 }
 
 // A convex object has none even when every depth would do.
@@ -96,7 +105,7 @@ TEST(ExtractConcaveAreas, AConvexObjectHasNone) {
 // Enclosed samples neither belong to a set nor raise the threshold.
 TEST(ExtractConcaveAreas, EnclosedSamplesAreLeftOut) {
     const auto areas =
-        extract_concave_areas(samples_with({kInfinity, 0.02, kInfinity, 0.01}), 0.01, {});
+        extract_concave_areas(samples_with({kInfinity, 0.02, kInfinity, 0.01}), 0.01, kHalf);
     ASSERT_TRUE(areas.ok());
     EXPECT_EQ(areas.value().threshold_m, 0.01);
     EXPECT_EQ(areas.value().salient, (std::vector<std::uint32_t>{1, 3}));
