@@ -39,15 +39,19 @@ struct ConcavityFrame {
     std::array<PlanePair, 3> planes;                          ///< the best pair first
 };
 
-/// Puts a box around a concavity by moment of inertia (PCL) and orders its pairs of faces by the
-/// chance that a hand that reaches through them hits the object.
+/// Puts a box around a concavity by moment of inertia and orders its pairs of faces by the chance
+/// that a hand that reaches through them hits the object.
 ///
 /// Source: Lei & Wisse 2016, Sec. II-C, Fig. 5.
 /// Deviation: the criterion is open in the paper. Ours: the volume of object inside the two faces
 /// extruded outward by the finger's length; least wins, ties (within 1e-9 of the box's volume) by
 /// larger face area, then by the higher axis. Signs of the axes: third moment of the points >= 0
 /// along major and middle, minor = major x middle; where a third moment vanishes, the axis's
-/// largest component (ties: lowest index) is made positive.
+/// largest component (ties: lowest index) is made positive. A pair whose face is narrower than
+/// 1e-6 of the box comes last: seen along it the concavity is a line.
+/// Deviation: the axes are computed in double instead of by PCL's MomentOfInertiaEstimation, whose
+/// floats leave them good to 1e-5 only and whose signs follow the order of points; a test compares
+/// the two.
 ///
 /// @param points_O         (N, N >= 4) points of the concavity [m]
 /// @param object_O         tree of the object's surface, same frame

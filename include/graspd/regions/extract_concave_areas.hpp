@@ -11,8 +11,9 @@ namespace graspd {
 
 /// What counts as concave. The paper leaves both thresholds open.
 struct ExtractConcaveAreasConfig {
-    double salient_fraction = 0.5;   ///< [1] salient from this share of the largest concavity on
-    double enlarged_fraction = 0.5;  ///< [1] enlarged from this share of the salience threshold on
+    double salient_fraction = 0.5;  ///< [1] salient from this share of the largest concavity on
+    /// [1] enlarged from this share of the salience threshold on; 0: all that lies around
+    double enlarged_fraction = 0.0;
     /// [1] least salience threshold in finger thicknesses: what no finger can use is no concavity
     double min_depth_finger_thicknesses = 0.5;
 
