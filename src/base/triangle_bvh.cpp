@@ -1,7 +1,6 @@
 #include "graspd/base/triangle_bvh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -9,52 +8,75 @@
 namespace graspd {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 4;
-constexpr int kBins = 12;
-constexpr int kSahDepth = 64;     // below it the tree is halved by count: 32 more levels at most
-constexpr int kStackDepth = 128;  // > kSahDepth + 32 + 1
-
-double half_area(const Eigen::AlignedBox3d& box) {
-    if (box.isEmpty()) return 0.0;
-    const Eigen::Vector3d s = box.sizes();
-    return s.x() * s.y() + s.y() * s.z() + s.z() * s.x();
-}
+// Single precision rounds by 6e-8; coordinates stay below 1, so three roundings fit in here.
+constexpr float kPad = 5e-7F;
+constexpr float kSlack = 1.0F + 1e-6F;
+constexpr float kNever = std::numeric_limits<float>::infinity();
 
 /// Twice the area over the longest edge; zero for a degenerate triangle.
 double least_height(const Eigen::Vector3d& edge1, const Eigen::Vector3d& edge2) {
-    const double longest = std::max({edge1.norm(), edge2.norm(), (edge2 - edge1).norm()});
+    const double longest = std::sqrt(
+        std::max({edge1.squaredNorm(), edge2.squaredNorm(), (edge2 - edge1).squaredNorm()}));
     return longest > 0.0 ? edge1.cross(edge2).norm() / longest : 0.0;
+}
+
+/// Squared distance from a point to a segment that starts at the origin.
+double squared_distance(const Eigen::Vector3d& point, const Eigen::Vector3d& segment) {
+    const double share = std::clamp(point.dot(segment) / segment.squaredNorm(), 0.0, 1.0);
+    return (point - share * segment).squaredNorm();
 }
 
 }  // namespace
 
-struct TriangleBvh::BuildItem {
-    Eigen::AlignedBox3d box;
-    Eigen::Vector3d center;
-    Corner corner;
-};
-
+/// A ray in double precision for the triangles and in the boxes' own units for them.
 struct TriangleBvh::Ray {
-    Eigen::Vector3d origin, direction, inverse;
+    Eigen::Vector3d origin, direction;
+    std::array<float, 3> start{}, inverse{};
+    std::array<std::size_t, 3> near_side{};  ///< of a box along each axis: 0 low, 1 high
+    double skipped = 0.0;  ///< the boxes' ray starts so far along, where it enters the bounds
+    bool meets_bounds = false;
 
-    Ray(const Eigen::Vector3d& from, const Eigen::Vector3d& along)
+    Ray(const Eigen::Vector3d& from, const Eigen::Vector3d& along, const TriangleBvh& bvh)
         : origin(from), direction(along) {
+        if (bvh.corners_.empty()) return;
+        // Directions as good as zero count as a huge finite inverse: infinity times 0 is no number.
+        constexpr double kLeast = 1e-30;
+        double enter = 0.0, leave = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
-            // A huge finite value instead of infinity keeps 0 * inverse from becoming NaN.
-            inverse[axis] = along[axis] != 0.0 ? 1.0 / along[axis] : 1e300;
+            const double slope = along[axis] / bvh.diagonal_m_;
+            const double inverted = std::abs(slope) > kLeast ? 1.0 / slope : 1.0 / kLeast;
+            const double low = (bvh.bounds_.min()[axis] - from[axis]) / bvh.diagonal_m_ * inverted;
+            const double high = (bvh.bounds_.max()[axis] - from[axis]) / bvh.diagonal_m_ * inverted;
+            enter = std::max(enter, std::min(low, high));
+            leave = std::min(leave, std::max(low, high));
+            const auto a = static_cast<std::size_t>(axis);
+            inverse[a] = static_cast<float>(inverted);
+            near_side[a] = inverted < 0.0;
+        }
+        meets_bounds = enter <= leave * (1.0 + 1e-12);
+        if (!meets_bounds) return;
+        skipped = enter;
+        const Eigen::Vector3d entry =
+            (from + enter * along - bvh.bounds_.center()) / bvh.diagonal_m_;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            start[axis] = static_cast<float>(entry[static_cast<Eigen::Index>(axis)]);
         }
     }
 
-    bool meets(const Eigen::AlignedBox3d& box, double reach) const {
-        const Eigen::Array3d t0 = (box.min() - origin).array() * inverse.array();
-        const Eigen::Array3d t1 = (box.max() - origin).array() * inverse.array();
-        const double enter = t0.min(t1).maxCoeff();
-        const double leave = t0.max(t1).minCoeff();
-        return std::max(enter, 0.0) <= std::min(leave, reach);
+    /// Where the ray enters the children's boxes; infinity where it does not within `reach`.
+    Eigen::Array4f enters(const BoxTree::Node& node, float reach) const {
+        Eigen::Array4f enter = Eigen::Array4f::Zero();
+        Eigen::Array4f leave = Eigen::Array4f::Constant(reach);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto& bound = node.bound[axis];
+            enter = enter.max((bound[near_side[axis]] - start[axis]) * inverse[axis]);
+            leave = leave.min((bound[1 - near_side[axis]] - start[axis]) * inverse[axis]);
+        }
+        return (enter <= leave * kSlack).select(enter, kNever);
     }
 
-    /// Moller-Trumbore with a tolerance on the barycentric coordinates.
-    bool meets(const Corner& c, double reach, double& t, bool& from_outside) const {
+    /// Moller-Trumbore; a hit beside the triangle counts within `tolerance_m` of its edges.
+    bool meets(const Corner& c, double tolerance_m, double reach, Hit& hit) const {
         const Eigen::Vector3d p = direction.cross(c.edge2);
         const double determinant = c.edge1.dot(p);
         if (determinant == 0.0) return false;
@@ -65,126 +87,91 @@ struct TriangleBvh::Ray {
         const Eigen::Vector3d q = s.cross(c.edge1);
         const double v = direction.dot(q) * scale;
         if (!(v >= -c.tolerance && u + v <= 1.0 + c.tolerance)) return false;
-        t = c.edge2.dot(q) * scale;
-        from_outside = determinant > 0.0;
-        return t >= 0.0 && t <= reach;
+        const double t = c.edge2.dot(q) * scale;
+        if (!(t >= 0.0 && t <= reach)) return false;
+        if (u < 0.0 || v < 0.0 || u + v > 1.0) {
+            // A needle's barycentric tolerance alone would reach far beyond its ends.
+            const Eigen::Vector3d place = u * c.edge1 + v * c.edge2;
+            const double nearest =
+                std::min({squared_distance(place, c.edge1), squared_distance(place, c.edge2),
+                          squared_distance(place - c.edge1, c.edge2 - c.edge1)});
+            if (nearest > tolerance_m * tolerance_m) return false;
+        }
+        hit = {t, c.face, determinant > 0.0};
+        return true;
     }
 };
 
 TriangleBvh::TriangleBvh(const TriangleMesh& mesh, double tolerance_m) : tolerance_m_(tolerance_m) {
-    std::vector<BuildItem> items;
-    items.reserve(mesh.faces.size());
+    for (const Triangle& face : mesh.faces) {
+        for (const std::uint32_t vertex : face) bounds_.extend(mesh.vertices[vertex]);
+    }
+    if (bounds_.isEmpty()) return;
     const Eigen::Vector3d pad = Eigen::Vector3d::Constant(tolerance_m);
+    bounds_ = Eigen::AlignedBox3d(bounds_.min() - pad, bounds_.max() + pad);
+    diagonal_m_ = bounds_.diagonal().norm();
+    const Eigen::Vector3d middle = bounds_.center();
+    const float pad_units = static_cast<float>(tolerance_m / diagonal_m_) + kPad;
+    std::vector<Box4f> boxes;
+    std::vector<Corner> corners;
+    boxes.reserve(mesh.faces.size());
+    corners.reserve(mesh.faces.size());
     for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
         const Triangle& t = mesh.faces[face];
-        const Eigen::Vector3d& a = mesh.vertices[t[0]];
-        const Eigen::Vector3d& b = mesh.vertices[t[1]];
-        const Eigen::Vector3d& c = mesh.vertices[t[2]];
-        const double height = least_height(b - a, c - a);
+        const Eigen::Vector3d& origin = mesh.vertices[t[0]];
+        const Eigen::Vector3d edge1 = mesh.vertices[t[1]] - origin;
+        const Eigen::Vector3d edge2 = mesh.vertices[t[2]] - origin;
+        const double height = least_height(edge1, edge2);
         if (!(height > 0.0)) continue;
-        BuildItem item;
-        item.box = Eigen::AlignedBox3d(a).extend(b).extend(c);
-        item.center = item.box.center();
-        item.box = Eigen::AlignedBox3d(item.box.min() - pad, item.box.max() + pad);
-        item.corner = {a, b - a, c - a, tolerance_m / height, face};
-        items.push_back(item);
-    }
-    if (items.empty()) return;
-    nodes_.reserve(items.size());
-    build(items, 0, static_cast<std::uint32_t>(items.size()), 0);
-    corners_.reserve(items.size());
-    for (const BuildItem& item : items) corners_.push_back(item.corner);
-    bounds_ = nodes_.front().box;
-}
-
-std::uint32_t TriangleBvh::split(std::vector<BuildItem>& items, std::uint32_t first,
-                                 std::uint32_t last, int axis, double low, double width) {
-    const auto bin_of = [&](const BuildItem& item) {
-        const int bin = static_cast<int>((item.center[axis] - low) / width * kBins);
-        return std::clamp(bin, 0, kBins - 1);
-    };
-    std::array<Eigen::AlignedBox3d, kBins> boxes;
-    std::array<std::uint32_t, kBins> counts{};
-    for (std::uint32_t i = first; i < last; ++i) {
-        const int bin = bin_of(items[i]);
-        boxes[bin].extend(items[i].box);
-        ++counts[bin];
-    }
-    std::array<double, kBins> right_cost{};
-    Eigen::AlignedBox3d swept;
-    std::uint32_t swept_count = 0;
-    for (int bin = kBins - 1; bin > 0; --bin) {
-        swept.extend(boxes[bin]);
-        swept_count += counts[bin];
-        right_cost[bin] = half_area(swept) * swept_count;
-    }
-    swept.setEmpty();
-    swept_count = 0;
-    int best_split = 0;
-    double best_cost = std::numeric_limits<double>::infinity();
-    for (int bin = 1; bin < kBins; ++bin) {
-        swept.extend(boxes[bin - 1]);
-        swept_count += counts[bin - 1];
-        const double cost = half_area(swept) * swept_count + right_cost[bin];
-        if (swept_count > 0 && swept_count < last - first && cost < best_cost) {
-            best_cost = cost;
-            best_split = bin;
+        Box4f box;
+        for (const std::uint32_t vertex : t) {
+            Eigen::Array4f unit = Eigen::Array4f::Zero();
+            unit.head<3>() = ((mesh.vertices[vertex] - middle) / diagonal_m_).cast<float>();
+            box.extend({unit - pad_units, unit + pad_units});
         }
+        boxes.push_back(box);
+        corners.push_back({origin, edge1, edge2, tolerance_m / height, face});
     }
-    const auto middle =
-        std::stable_partition(items.begin() + first, items.begin() + last,
-                              [&](const BuildItem& item) { return bin_of(item) < best_split; });
-    return static_cast<std::uint32_t>(middle - items.begin());
-}
-
-std::uint32_t TriangleBvh::build(std::vector<BuildItem>& items, std::uint32_t first,
-                                 std::uint32_t last, int depth) {
-    const auto index = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
-    Eigen::AlignedBox3d box, centers;
-    for (std::uint32_t i = first; i < last; ++i) {
-        box.extend(items[i].box);
-        centers.extend(items[i].center);
-    }
-    nodes_[index].box = box;
-    int axis = 0;
-    const double width = centers.sizes().maxCoeff(&axis);
-    if (last - first <= kLeafSize) {
-        nodes_[index].first = first;
-        nodes_[index].count = last - first;
-        return index;
-    }
-    const bool by_cost = depth < kSahDepth && width > 0.0;
-    const std::uint32_t middle = by_cost
-                                     ? split(items, first, last, axis, centers.min()[axis], width)
-                                     : first + (last - first) / 2;
-    build(items, first, middle, depth + 1);
-    const std::uint32_t right = build(items, middle, last, depth + 1);
-    nodes_[index].first = right;
-    return index;
+    tree_ = build_box_tree(boxes);
+    corners_.reserve(corners.size());
+    for (const std::uint32_t place : tree_.order) corners_.push_back(corners[place]);
 }
 
 template <class Visit>
 void TriangleBvh::traverse(const Ray& ray, double& reach, Visit&& visit) const {
-    if (nodes_.empty()) return;
-    std::array<std::uint32_t, kStackDepth> stack;
-    int top = 0;
-    stack[top++] = 0;
+    if (!ray.meets_bounds) return;
+    struct Waiting {
+        std::uint32_t child;
+        float enter;
+    };
+    std::array<Waiting, BoxTree::kStackDepth> stack;
+    std::size_t top = 0;
+    stack[top++] = {tree_.root, 0.0F};
     while (top > 0) {
-        const std::uint32_t index = stack[--top];
-        const Node& node = nodes_[index];
-        if (!ray.meets(node.box, reach)) continue;
-        if (node.count == 0) {
-            assert(top + 2 <= kStackDepth);
-            stack[top++] = node.first;
-            stack[top++] = index + 1;
+        const Waiting item = stack[--top];
+        const float left = static_cast<float>(reach - ray.skipped) * kSlack;
+        if (item.enter > left) continue;
+        if (BoxTree::is_leaf(item.child)) {
+            const std::uint32_t first = BoxTree::leaf_first(item.child);
+            for (std::uint32_t i = first; i < first + BoxTree::leaf_count(item.child); ++i) {
+                Hit hit;
+                if (ray.meets(corners_[i], tolerance_m_, reach, hit) && visit(hit)) return;
+            }
             continue;
         }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            double t = 0.0;
-            bool from_outside = true;
-            if (!ray.meets(corners_[i], reach, t, from_outside)) continue;
-            if (visit(Hit{t, corners_[i].face, from_outside})) return;
+        const BoxTree::Node& node = tree_.nodes[item.child];
+        const Eigen::Array4f enter = ray.enters(node, left);
+        assert(top + 4 <= stack.size());
+        const std::size_t bottom = top;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const float here = enter[static_cast<Eigen::Index>(k)];
+            if (here == kNever) continue;
+            // The nearest child comes last onto the stack, so it is the next one.
+            std::size_t place = top++;
+            for (; place > bottom && stack[place - 1].enter < here; --place) {
+                stack[place] = stack[place - 1];
+            }
+            stack[place] = {node.child[k], here};
         }
     }
 }
@@ -192,7 +179,7 @@ void TriangleBvh::traverse(const Ray& ray, double& reach, Visit&& visit) const {
 bool TriangleBvh::segment_blocked(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
     bool blocked = false;
     double reach = 1.0;  // the direction is not normalised, so the segment ends at t = 1
-    traverse(Ray(a, b - a), reach, [&](const Hit&) { return blocked = true; });
+    traverse(Ray(a, b - a, *this), reach, [&](const Hit&) { return blocked = true; });
     return blocked;
 }
 
@@ -201,7 +188,7 @@ std::optional<TriangleBvh::Hit> TriangleBvh::first_hit(const Eigen::Vector3d& or
                                                        double max_distance_m) const {
     std::optional<Hit> nearest;
     double reach = max_distance_m;
-    traverse(Ray(origin, direction), reach, [&](const Hit& hit) {
+    traverse(Ray(origin, direction, *this), reach, [&](const Hit& hit) {
         const bool nearer = !nearest || hit.distance_m < nearest->distance_m ||
                             (hit.distance_m == nearest->distance_m && hit.face < nearest->face);
         if (nearer) {
@@ -218,7 +205,7 @@ std::vector<TriangleBvh::Hit> TriangleBvh::all_hits(const Eigen::Vector3d& origi
                                                     double max_distance_m) const {
     std::vector<Hit> hits;
     double reach = max_distance_m;
-    traverse(Ray(origin, direction), reach, [&](const Hit& hit) {
+    traverse(Ray(origin, direction, *this), reach, [&](const Hit& hit) {
         hits.push_back(hit);
         return false;
     });
@@ -233,40 +220,67 @@ std::vector<TriangleBvh::Hit> TriangleBvh::all_hits(const Eigen::Vector3d& origi
     return hits;
 }
 
+/// A box of any direction in the tree's own units, grown by the distance that counts as near.
+struct TriangleBvh::Vicinity {
+    Eigen::Matrix3f axes, spread;
+    Eigen::Vector3f center, half, reach;  ///< half along its own axes, reach along the world's
+
+    Vicinity(const OrientedBox& box, double within_m, const TriangleBvh& bvh) {
+        // Rounding in single precision must not lose a face that touches.
+        const double pad = within_m / bvh.diagonal_m_ + 4.0 * static_cast<double>(kPad);
+        axes = box.pose.linear().cast<float>();
+        spread = axes.cwiseAbs();
+        center = ((box.pose.translation() - bvh.bounds_.center()) / bvh.diagonal_m_).cast<float>();
+        half = ((box.half_extent / bvh.diagonal_m_).array() + pad).matrix().cast<float>();
+        reach = (box.pose.linear().cwiseAbs() * (box.half_extent / bvh.diagonal_m_)).cast<float>();
+        reach.array() += static_cast<float>(pad);
+    }
+
+    /// Per child: how far the boxes lie apart along the axis on which they do so most; an absent
+    /// child gives no number.
+    Eigen::Array4f gaps(const BoxTree::Node& node) const {
+        std::array<Eigen::Array4f, 3> offset, size;
+        Eigen::Array4f gap = Eigen::Array4f::Constant(-kNever);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<Eigen::Index>(axis);
+            offset[axis] = 0.5F * (node.bound[axis][0] + node.bound[axis][1]) - center[a];
+            size[axis] = 0.5F * (node.bound[axis][1] - node.bound[axis][0]);
+            gap = gap.max(offset[axis].abs() - size[axis] - reach[a]);
+        }
+        for (Eigen::Index k = 0; k < 3; ++k) {
+            const Eigen::Array4f along =
+                offset[0] * axes(0, k) + offset[1] * axes(1, k) + offset[2] * axes(2, k);
+            const Eigen::Array4f wide =
+                size[0] * spread(0, k) + size[1] * spread(1, k) + size[2] * spread(2, k);
+            gap = gap.max(along.abs() - wide - half[k]);
+        }
+        return gap;
+    }
+};
+
 std::vector<std::uint32_t> TriangleBvh::faces_near(const OrientedBox& box, double within_m) const {
     std::vector<std::uint32_t> faces;
-    if (nodes_.empty()) return faces;
-    const Eigen::Matrix3d axes = box.pose.linear();
-    const Eigen::Matrix3d spread = axes.cwiseAbs();
-    const Eigen::Vector3d center = box.pose.translation();
-    const Eigen::Vector3d reach = spread * box.half_extent;  // of the box along the world's axes
-    const auto near = [&](const Eigen::AlignedBox3d& node) {
-        const Eigen::Vector3d offset = node.center() - center;
-        const Eigen::Vector3d half = 0.5 * node.sizes();
-        const Eigen::Array3d gap_world = offset.array().abs() - half.array() - reach.array();
-        if (gap_world.maxCoeff() > within_m) return false;
-        const Eigen::Vector3d offset_box = axes.transpose() * offset;
-        const Eigen::Vector3d half_box = spread.transpose() * half;
-        return ((offset_box.array().abs() - half_box.array() - box.half_extent.array())
-                    .maxCoeff()) <= within_m;
-    };
-    std::array<std::uint32_t, kStackDepth> stack;
-    int top = 0;
-    stack[top++] = 0;
+    if (corners_.empty()) return faces;
+    const Vicinity vicinity(box, within_m, *this);
+    std::array<std::uint32_t, BoxTree::kStackDepth> stack;
+    std::size_t top = 0;
+    stack[top++] = tree_.root;
     while (top > 0) {
-        const std::uint32_t index = stack[--top];
-        const Node& node = nodes_[index];
-        if (!near(node.box)) continue;
-        if (node.count == 0) {
-            stack[top++] = node.first;
-            stack[top++] = index + 1;
+        const std::uint32_t child = stack[--top];
+        if (BoxTree::is_leaf(child)) {
+            const std::uint32_t first = BoxTree::leaf_first(child);
+            for (std::uint32_t i = first; i < first + BoxTree::leaf_count(child); ++i) {
+                faces.push_back(corners_[i].face);
+            }
             continue;
         }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const Corner& c = corners_[i];
-            Eigen::AlignedBox3d triangle(c.origin);
-            triangle.extend(c.origin + c.edge1).extend(c.origin + c.edge2);
-            if (near(triangle)) faces.push_back(c.face);
+        const BoxTree::Node& node = tree_.nodes[child];
+        const Eigen::Array4f gap = vicinity.gaps(node);
+        assert(top + 4 <= stack.size());
+        for (std::size_t k = 0; k < 4; ++k) {
+            const auto lane = static_cast<Eigen::Index>(k);
+            const bool is_there = node.bound[0][0][lane] <= node.bound[0][1][lane];
+            if (is_there && gap[lane] <= 0.0F) stack[top++] = node.child[k];
         }
     }
     std::ranges::sort(faces);
@@ -274,17 +288,16 @@ std::vector<std::uint32_t> TriangleBvh::faces_near(const OrientedBox& box, doubl
 }
 
 bool TriangleBvh::contains(const Eigen::Vector3d& point) const {
-    if (nodes_.empty() || !bounds_.contains(point)) return false;
+    if (!bounds_.contains(point)) return false;
     // Directions without zeros or equal components, so that they are parallel to no edge of a
     // boxy object.
     static const std::array<Eigen::Vector3d, 3> kDirections = {
         Eigen::Vector3d(0.6131, 0.7223, 0.3201).normalized(),
         Eigen::Vector3d(-0.5417, 0.2939, 0.7875).normalized(),
         Eigen::Vector3d(0.2113, -0.8341, -0.5095).normalized()};
-    const double reach = bounds_.diagonal().norm();
     int inside = 0;
     for (const Eigen::Vector3d& direction : kDirections) {
-        const auto hit = first_hit(point, direction, reach);
+        const auto hit = first_hit(point, direction, diagonal_m_);
         inside += hit && !hit->from_outside;
     }
     return inside >= 2;

@@ -1,11 +1,8 @@
 #include "graspd/concavity/outer_hull.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
-#include <numeric>
 #include <string>
 
 extern "C" {
@@ -14,8 +11,6 @@ extern "C" {
 
 namespace graspd {
 namespace {
-
-constexpr std::uint32_t kLeafSize = 4;
 
 /// qhull's state with its error stream, freed on every way out.
 struct QhullSession {
@@ -41,13 +36,14 @@ struct QhullSession {
     }
 };
 
-HullFacet read_facet(const facetT& facet) {
+/// @param middle  what was subtracted from the points
+HullFacet read_facet(const facetT& facet, const Eigen::Vector3d& middle) {
     HullFacet out;
     out.normal = Eigen::Map<const Eigen::Vector3d>(facet.normal);
-    out.offset_m = -facet.offset;
+    out.offset_m = out.normal.dot(middle) - facet.offset;
     vertexT *vertex, **vertexp;
     FOREACHvertex_(facet.vertices) {
-        out.box.extend(Eigen::Map<const Eigen::Vector3d>(vertex->point));
+        out.box.extend(Eigen::Map<const Eigen::Vector3d>(vertex->point) + middle);
     }
     return out;
 }
@@ -61,8 +57,14 @@ Result<OuterHull> outer_hull(std::span<const Eigen::Vector3d> points) {
     }
     std::vector<coordT> coordinates;
     coordinates.reserve(3 * points.size());
-    for (const Eigen::Vector3d& p : points)
+    // qhull's tolerances grow with the coordinates, so they are centred first.
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& point : points) box.extend(point);
+    const Eigen::Vector3d middle = box.center();
+    for (const Eigen::Vector3d& point : points) {
+        const Eigen::Vector3d p = point - middle;
         coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
+    }
 
     QhullSession session;
     if (session.errors == nullptr) {
@@ -80,7 +82,7 @@ Result<OuterHull> outer_hull(std::span<const Eigen::Vector3d> points) {
     OuterHull hull;
     facetT* facet = nullptr;
     FORALLfacets {
-        hull.facets.push_back(read_facet(*facet));
+        hull.facets.push_back(read_facet(*facet, middle));
     }
     vertexT* vertex = nullptr;
     FORALLvertices {
@@ -90,71 +92,6 @@ Result<OuterHull> outer_hull(std::span<const Eigen::Vector3d> points) {
     qh_getarea(qh, qh->facet_list);
     hull.volume_m3 = qh->totvol;
     return hull;
-}
-
-HullPlaneTree::HullPlaneTree(const OuterHull& hull) : facets_(hull.facets), order_(facets_.size()) {
-    std::iota(order_.begin(), order_.end(), 0u);
-    nodes_.reserve(2 * facets_.size());
-    build(0, static_cast<std::uint32_t>(order_.size()));
-}
-
-std::uint32_t HullPlaneTree::build(std::uint32_t first, std::uint32_t last) {
-    const auto index = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
-    Eigen::AlignedBox3d box, centers;
-    for (std::uint32_t i = first; i < last; ++i) {
-        box.extend(facets_[order_[i]].box);
-        centers.extend(facets_[order_[i]].box.center());
-    }
-    nodes_[index].box = box;
-    if (last - first <= kLeafSize) {
-        nodes_[index].first = first;
-        nodes_[index].count = last - first;
-        return index;
-    }
-    int axis = 0;
-    centers.sizes().maxCoeff(&axis);
-    const std::uint32_t middle = first + (last - first) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         const double ca = facets_[a].box.center()[axis];
-                         const double cb = facets_[b].box.center()[axis];
-                         return ca != cb ? ca < cb : a < b;
-                     });
-    build(first, middle);
-    const std::uint32_t right = build(middle, last);
-    nodes_[index].first = right;
-    return index;
-}
-
-HullPlaneTree::Nearest HullPlaneTree::nearest(const Eigen::Vector3d& point) const {
-    Nearest best{std::numeric_limits<double>::infinity(), 0};
-    std::array<std::uint32_t, 96> stack;  // the tree is balanced: depth <= 32
-    int top = 0;
-    stack[top++] = 0;
-    while (top > 0) {
-        const std::uint32_t index = stack[--top];
-        const Node& node = nodes_[index];
-        // The nearest plane's foot lies on its facet, hence in the facet's box.
-        if (node.box.squaredExteriorDistance(point) > best.distance_m * best.distance_m) continue;
-        if (node.count == 0) {
-            const std::uint32_t left = index + 1, right = node.first;
-            const bool left_first = nodes_[left].box.squaredExteriorDistance(point) <=
-                                    nodes_[right].box.squaredExteriorDistance(point);
-            stack[top++] = left_first ? right : left;
-            stack[top++] = left_first ? left : right;
-            continue;
-        }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const std::uint32_t facet = order_[i];
-            const double distance =
-                std::max(0.0, facets_[facet].offset_m - facets_[facet].normal.dot(point));
-            if (distance < best.distance_m || (distance == best.distance_m && facet < best.facet)) {
-                best = {distance, facet};
-            }
-        }
-    }
-    return best;
 }
 
 }  // namespace graspd

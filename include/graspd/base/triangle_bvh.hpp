@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "graspd/base/box_tree.hpp"
 #include "graspd/base/geometry.hpp"
 
 namespace graspd {
@@ -42,8 +43,8 @@ public:
     std::vector<Hit> all_hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                               double max_distance_m) const;
 
-    /// Faces whose bounding boxes come within a distance of a box, by a test that may report a few
-    /// more (separating axes of the two boxes' faces only). Rising indices.
+    /// Faces that come within a distance of a box, and some that do not: those in tree boxes that no
+    /// axis of either box separates from it. Rising indices.
     std::vector<std::uint32_t> faces_near(const OrientedBox& box, double within_m) const;
 
     /// True when the point [m] lies inside the closed surface: majority of three ray directions,
@@ -51,30 +52,22 @@ public:
     bool contains(const Eigen::Vector3d& point) const;
 
 private:
-    struct Node {
-        Eigen::AlignedBox3d box;
-        std::uint32_t first = 0;  ///< leaf: first triangle; inner: index of the right child
-        std::uint32_t count = 0;  ///< triangles in a leaf, 0 for an inner node
-    };
     struct Corner {
         Eigen::Vector3d origin, edge1, edge2;
         double tolerance = 0.0;  ///< barycentric, = tolerance_m / least height
         std::uint32_t face = 0;
     };
-    struct BuildItem;
     struct Ray;
+    struct Vicinity;
 
-    std::uint32_t build(std::vector<BuildItem>& items, std::uint32_t first, std::uint32_t last,
-                        int depth);
-    static std::uint32_t split(std::vector<BuildItem>& items, std::uint32_t first,
-                               std::uint32_t last, int axis, double low, double width);
     template <class Visit>
     void traverse(const Ray& ray, double& reach, Visit&& visit) const;
 
     double tolerance_m_ = 0.0;
-    Eigen::AlignedBox3d bounds_;
-    std::vector<Node> nodes_;
-    std::vector<Corner> corners_;
+    Eigen::AlignedBox3d bounds_;   ///< [m] of the triangles, padded by the tolerance
+    double diagonal_m_ = 0.0;      ///< [m] of bounds_
+    BoxTree tree_;                 ///< in units of the diagonal, relative to the middle of bounds_
+    std::vector<Corner> corners_;  ///< in the order of the leaves
 };
 
 }  // namespace graspd

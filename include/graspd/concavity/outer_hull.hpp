@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "graspd/base/box_tree.hpp"
 #include "graspd/base/result.hpp"
 
 namespace graspd {
@@ -49,15 +50,10 @@ public:
     const HullFacet& facet(std::uint32_t index) const { return facets_[index]; }
 
 private:
-    struct Node {
-        Eigen::AlignedBox3d box;
-        std::uint32_t first = 0, count = 0;  ///< as in TriangleBvh
-    };
-    std::uint32_t build(std::uint32_t first, std::uint32_t last);
-
+    Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< [m] of all facets' boxes
+    double diagonal_m_ = 0.0;                           ///< [m] of all facets' boxes
+    BoxTree tree_;                                      ///< in units of the diagonal from middle_
     std::vector<HullFacet> facets_;
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
 };
 
 }  // namespace graspd

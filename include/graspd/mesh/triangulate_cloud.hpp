@@ -12,7 +12,7 @@ struct TriangulateCloudConfig {
     bool greedy_projection = false;        ///< true: PCL's greedy projection, the paper's "fast
                                            ///< triangulation"; false: CGAL's advancing front, which
                                            ///< passes through the points and leaves fewer holes
-    std::uint32_t max_points = 20000;      ///< more are thinned on a voxel grid (PCL)
+    std::uint32_t max_points = 20000;      ///< more are thinned, one point a cube of a grid
     std::uint32_t limit_points = 5000000;  ///< more are refused
     std::uint32_t normal_neighbours = 16;  ///< of the normal estimate (greedy projection)
     double radius_spacings = 5.0;          ///< [1] greedy search radius in median point spacings
@@ -36,7 +36,8 @@ struct TriangulatedCloud {
     std::vector<std::int32_t> vertex_of_point;  ///< per input point: the mesh vertex that stands
                                                 ///< for it, or -1 (dropped)
     double spacing_m = 0.0;                     ///< [m] median distance to the nearest neighbour
-    std::vector<Finding> findings;  ///< points_not_finite, points_thinned, points_duplicate, ...
+    /// points_not_finite, points_duplicate, points_thinned, points_unused (in no triangle)
+    std::vector<Finding> findings;
 };
 
 /// Triangulates a point cloud.
@@ -44,7 +45,8 @@ struct TriangulatedCloud {
 /// Source: Lei & Wisse 2016, Sec. II-A, Fig. 3a-b.
 /// Deviation: advancing front by default; greedy projection leaves 7 to 90 holes on the two
 /// multi-view clouds that we measured.
-/// @param cloud  points [m] in any order; NaN and infinite ones are dropped with a finding
+/// @param cloud  points [m]; NaN and infinite ones are dropped with a finding. Their order changes
+///               nothing: the vertices are those that are kept, in lexicographic order
 /// @return kInvalidInput for an empty cloud or fewer than 10 finite distinct points (count in
 ///         detail); kTooLarge above limit_points; kDegenerate when the points are coplanar or
 ///         collinear, or no triangle came out
