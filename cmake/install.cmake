@@ -1,3 +1,49 @@
-# Install and export: find_package(graspd) gives graspd::core, and graspd::msgs and graspd::dds when
-# they were built.
+# Install and export: find_package(graspd) gives graspd::core and the program graspd::graspctl, and
+# graspd::msgs, graspd::dds and the daemon graspd::graspd when they were built. The DDS half has an
+# export set of its own, so that a user of graspd::core needs no Fast DDS.
 include(CMakePackageConfigHelpers)
+
+set(graspd_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/graspd)
+
+foreach(library graspd_core graspd_dds)
+  if(TARGET ${library})
+    set_target_properties(${library} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  endif()
+endforeach()
+
+# graspd_install(EXPORT target...): the ones that exist.
+function(graspd_install export)
+  foreach(target ${ARGN})
+    if(NOT TARGET ${target})
+      continue()
+    endif()
+    get_target_property(kind ${target} TYPE)
+    if(kind STREQUAL EXECUTABLE)
+      set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+      install(TARGETS ${target} EXPORT ${export})
+    else()
+      install(TARGETS ${target} EXPORT ${export} FILE_SET HEADERS)
+    endif()
+  endforeach()
+endfunction()
+
+graspd_install(graspdTargets graspd_core graspctl)
+install(EXPORT graspdTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir})
+if(TARGET graspd_msgs)
+  graspd_install(graspdDdsTargets graspd_msgs graspd_dds graspd)
+  install(EXPORT graspdDdsTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir})
+endif()
+
+# The programs look for ../share/graspd/profiles from their own place.
+install(DIRECTORY profiles/ DESTINATION share/graspd/profiles)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(EXISTS ${PROJECT_SOURCE_DIR}/idl)
+  install(DIRECTORY idl/ DESTINATION share/graspd/idl)
+endif()
+
+configure_package_config_file(cmake/graspdConfig.cmake.in graspdConfig.cmake
+                              INSTALL_DESTINATION ${graspd_config_dir})
+write_basic_package_version_file(graspdConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/graspdConfig.cmake ${PROJECT_BINARY_DIR}/graspdConfigVersion.cmake
+              cmake/pcl.cmake
+        DESTINATION ${graspd_config_dir})

@@ -133,7 +133,7 @@ ConcaveHull normalise(std::vector<Loop> loops) {
     for (Loop& loop : loops) {
         const double area_m2 = signed_area_m2(loop);
         if (area_m2 < 0.0) std::ranges::reverse(loop);
-        std::ranges::rotate(loop, std::ranges::min_element(loop, lexicographic_less));
+        std::rotate(loop.begin(), std::ranges::min_element(loop, lexicographic_less), loop.end());
         by_area.emplace_back(std::abs(area_m2), std::move(loop));
     }
     std::ranges::sort(by_area, [](const auto& a, const auto& b) {

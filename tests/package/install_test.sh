@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Installs a build into a prefix of its own and uses it from there as a stranger would.
+#   install_test.sh SOURCE_DIR BUILD_DIR CMAKE C_COMPILER CXX_COMPILER
+set -euo pipefail
+source_dir=$1 build_dir=$2 cmake=$3 c_compiler=$4 cxx_compiler=$5
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+prefix=$work/prefix
+fail() { echo "install_test: $*" >&2; exit 1; }
+
+"$cmake" --install "$build_dir" --prefix "$prefix" >/dev/null
+
+echo "-- every public header is installed, and no other"
+diff <(cd "$source_dir/include" && find graspd -name '*.hpp' | sort) \
+     <(cd "$prefix/include" && find graspd -name '*.hpp' | sort)
+
+echo "-- a consumer outside the tree finds, links and runs it"
+cp -r "$source_dir/tests/package/consumer" "$work/consumer"
+"$cmake" -S "$work/consumer" -B "$work/consumer/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$c_compiler" \
+    -DCMAKE_CXX_COMPILER="$cxx_compiler" >"$work/log" 2>&1 || { cat "$work/log"; fail "configure"; }
+"$cmake" --build "$work/consumer/build" >"$work/log" 2>&1 || { cat "$work/log"; fail "build"; }
+status=$("$work/consumer/build/plan_box" "$prefix/share/graspd/profiles/grippers/parallel_85.yaml")
+echo "plan_box: $status"
+[ -n "$status" ] || fail "plan_box printed nothing"
+
+echo "-- the installed graspctl reads the installed profiles, not the source tree's"
+sed 's/parallel_85/only_installed/' "$source_dir/profiles/grippers/parallel_85.yaml" \
+    >"$prefix/share/graspd/profiles/grippers/only_installed.yaml"
+cd /
+env -i "$prefix/bin/graspctl" grippers >"$work/grippers"
+grep -q only_installed "$work/grippers" || { cat "$work/grippers"; fail "graspctl grippers"; }
+env -i "$prefix/bin/graspctl" --version
+
+if [ -x "$prefix/bin/graspd" ]; then
+    echo "-- the installed daemon starts far enough to print its version and settings"
+    env -i "$prefix/bin/graspd" --version
+    env -i "$prefix/bin/graspd" --print-config >/dev/null
+fi
