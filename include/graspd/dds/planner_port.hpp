@@ -43,7 +43,8 @@ public:
     virtual Result<PlanRequest> convert(std::span<const Gripper> known) const = 0;
 };
 
-/// Takes over a request. Called on the middleware's thread: must return at once and not throw.
+/// Takes over a request. Called on the middleware's threads, perhaps on two at a time: must return
+/// at once and not throw.
 using RequestHandler = std::function<void(std::unique_ptr<IncomingRequest>)>;
 
 /// What goes back. The ids, frame_id and stamp are echoed from `to`, not from `reply`.
