@@ -11,6 +11,7 @@ const char* to_string(PlanErrorCode code) {
         case PlanErrorCode::kUnknownGripper: return "unknown_gripper";
         case PlanErrorCode::kUnknownObject: return "unknown_object";
         case PlanErrorCode::kUnreadableFile: return "unreadable_file";
+        case PlanErrorCode::kNoReply: return "no_reply";
         case PlanErrorCode::kInternal: return "internal";
     }
     return "unknown";

@@ -18,6 +18,7 @@ int exit_code(const PlanReply& reply) {
 }
 
 int exit_code(const PlanError& error) {
+    if (error.code == PlanErrorCode::kNoReply) return kExitNoReply;
     return error.code == PlanErrorCode::kInternal ? kExitInternal : kExitUsage;
 }
 

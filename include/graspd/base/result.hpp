@@ -19,6 +19,7 @@ enum class PlanErrorCode : std::uint8_t {
     kUnknownGripper,  ///< no gripper profile of that name
     kUnknownObject,   ///< no object under that key
     kUnreadableFile,  ///< a file is missing, or its contents are not what its name says
+    kNoReply,         ///< the other end did not answer in time
     kInternal,        ///< a library failed where it should not have
 };
 

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "graspd/base/result.hpp"
+#include "graspd/dds/dds_settings.hpp"
+#include "graspd/planner/plan_types.hpp"
+
+namespace graspd {
+
+/// Who asked for what. A request is (writer, request_id, payload_hash): the same three again are a
+/// retry; the same writer and id with other bytes are two requests under one name.
+struct RequestIdentity {
+    std::array<std::uint8_t, 16> writer{};  ///< GUID of the DDS writer: prefix, then entity id
+    std::string client_id;           ///< its first 64 characters, unprintable ones shown as '?'
+    std::string request_id;          ///< likewise; convert() refuses an id that this had to change
+    std::uint64_t payload_hash = 0;  ///< FNV-1a of the serialized payload as received
+};
+
+/// A request as the listener took it. Nothing has been converted yet, so taking it is cheap.
+/// Immutable, so safe to use from any thread.
+class IncomingRequest {
+public:
+    virtual ~IncomingRequest() = default;
+
+    virtual const RequestIdentity& identity() const = 0;
+    virtual std::chrono::steady_clock::time_point received() const = 0;
+    virtual const std::string& frame_id() const = 0;    ///< name of F, echoed in the reply
+    virtual const std::string& object_key() const = 0;  ///< empty when geometry came along
+
+    /// Checks every field and converts it. With an object_key the object is left empty for the
+    /// caller to fill in.
+    ///
+    /// @param known  the grippers that a request may name
+    /// @return kInvalidInput, kUnsupported (an option that is not served yet) or kUnknownGripper,
+    ///         naming the field and its value. Cost: linear in the payload.
+    virtual Result<PlanRequest> convert(std::span<const Gripper> known) const = 0;
+};
+
+/// Takes over a request. Called on the middleware's threads, perhaps on two at a time: must return
+/// at once and not throw.
+using RequestHandler = std::function<void(std::unique_ptr<IncomingRequest>)>;
+
+/// What goes back. The ids, frame_id and stamp are echoed from `to`, not from `reply`.
+struct OutgoingReply {
+    std::shared_ptr<const IncomingRequest> to;
+    std::uint32_t attempt = 1;  ///< rises by one with every answer to the same identity
+    PlanReply reply;
+};
+
+/// The daemon's end of the topics graspd/grasp_request and graspd/ranked_grasps.
+///
+/// Malformed samples are refused and counted before they become a request.
+class PlannerPort {
+public:
+    /// Joins the domain. Requests may arrive before this returns.
+    /// @return kUnreadableFile for a profile file that is missing, broken or lacks a profile;
+    ///         kInvalidInput for a bad setting; kInternal when the middleware refuses an endpoint
+    static Result<std::unique_ptr<PlannerPort>> open(const DdsSettings& settings,
+                                                     RequestHandler handler);
+    /// Leaves the domain: stops listening, then removes every endpoint.
+    virtual ~PlannerPort() = default;
+
+    /// Writes one reply; waits for a slow reader for the profile's max_blocking_time at most.
+    /// To be called from one thread. @return false: the reply is lost (and counted)
+    virtual bool write(const OutgoingReply& reply) = 0;
+    /// No call of the handler is under way or follows once this has returned. Not for the handler.
+    virtual void stop_listening() = 0;
+    /// Waits until every matched reader has confirmed every reply. @return false: not in that time
+    virtual bool wait_acknowledged(std::chrono::milliseconds timeout) = 0;
+
+    virtual std::uint64_t rejected_payloads() const = 0;  ///< malformed samples that were refused
+    virtual std::uint64_t lost_replies() const = 0;       ///< calls of write() that gave false
+};
+
+}  // namespace graspd

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "convert_basics.hpp"
+#include "graspd/planner/plan_types.hpp"
+
+namespace graspd::dds {
+
+/// The options of a request; those of an absent PlanOptions are PlanOptions{}. Notes kInvalidInput
+/// for a value outside its range and kUnsupported for a flag that nothing serves yet.
+PlanOptions read_options(const wire::GraspRequest_& request, FirstError& errors);
+
+wire::PlanOptions_ write_options(const PlanOptions& options);
+
+}  // namespace graspd::dds

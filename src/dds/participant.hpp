@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+
+#include "graspd/base/result.hpp"
+#include "graspd/dds/dds_settings.hpp"
+
+namespace graspd::dds {
+
+namespace fast = eprosima::fastdds::dds;
+
+// The topics, and the profiles that every profile file must have.
+inline constexpr const char* kRequestTopic = "rt/graspd/grasp_request";
+inline constexpr const char* kReplyTopic = "rt/graspd/ranked_grasps";
+inline constexpr const char* kParticipantProfile = "graspd_participant";
+inline constexpr const char* kRequestReader = "graspd_request_reader";
+inline constexpr const char* kRequestWriter = "graspd_request_writer";
+inline constexpr const char* kReplyReader = "graspd_reply_reader";
+inline constexpr const char* kReplyWriter = "graspd_reply_writer";
+
+/// A topic with the type that travels on it.
+struct TopicOf {
+    const char* name;
+    fast::TypeSupport type;
+};
+
+/// A DDS participant with the endpoints made through it; the destructor removes them all, after
+/// which no listener is called any more.
+class Participant {
+public:
+    /// Loads the profile file, checks it and joins the domain. One process uses one profile file:
+    /// the middleware keeps the first profile of a name, whatever a later file says.
+    /// @return kUnreadableFile for a file that is missing, broken, lacks a profile or has one whose
+    ///         reliability, durability or history is not that of the contract; kInvalidInput for a
+    ///         domain above 232, no payload bytes, or a second file; kInternal when the middleware
+    ///         refuses
+    static Result<std::unique_ptr<Participant>> join(const DdsSettings& settings);
+
+    Participant(const Participant&) = delete;
+    Participant& operator=(const Participant&) = delete;
+    ~Participant();
+
+    /// Null when the middleware refuses. The listener must outlive this participant.
+    fast::DataReader* create_reader(const TopicOf& topic, const char* profile,
+                                    fast::DataReaderListener* listener);
+    fast::DataWriter* create_writer(const TopicOf& topic, const char* profile,
+                                    fast::DataWriterListener* listener);
+
+private:
+    Participant() = default;
+    std::optional<PlanError> check_profiles(const std::string& file) const;
+    fast::Topic* create_topic(const TopicOf& topic);
+
+    fast::DomainParticipant* participant_ = nullptr;
+    fast::Publisher* publisher_ = nullptr;
+    fast::Subscriber* subscriber_ = nullptr;
+};
+
+}  // namespace graspd::dds
