@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace graspd::planner_detail {
@@ -14,6 +15,7 @@ struct Touch {
 struct ProbedAxis {
     ClosingAxis axis;
     double badness_rad = 0.0;  ///< lean, and the lever in units of lever_weight
+    Rejections fallen;         ///< poses that are out of reach
 };
 
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -44,27 +46,76 @@ std::optional<Touch> widest_touch(const PreparedObject& object, const Eigen::Vec
 }
 
 /// Closes along the axis's line alone. @return the typed reason when it is no grasp
-const char* probe(ProbedAxis& probed, const PreparedObject& object,
-                  const Eigen::Vector3d& center_of_mass_P, const Gripper& gripper,
-                  const PlannerConfig& config) {
+const char* probe(ProbedAxis& probed, const Judgement& judgement) {
     ClosingAxis& axis = probed.axis;
+    const PlannerConfig& config = judgement.config;
     const double length_m = (axis.right_P - axis.left_P).norm();
     const Eigen::Vector3d closing = (axis.right_P - axis.left_P) / length_m;
-    const auto left = widest_touch(object, axis.left_P, closing, length_m, config.manipulability);
+    const auto left =
+        widest_touch(judgement.object, axis.left_P, closing, length_m, config.manipulability);
     const auto right =
-        widest_touch(object, axis.right_P, -closing, length_m, config.manipulability);
+        widest_touch(judgement.object, axis.right_P, -closing, length_m, config.manipulability);
     if (!left || !right) return "axis_no_contact";
     const double width_m = closing.dot(right->point_P - left->point_P);
-    if (width_m <= gripper.min_width_m) return "axis_no_contact";
-    if (width_m >= gripper.max_width_m) return "axis_too_wide";
+    if (width_m <= judgement.gripper.min_width_m) return "axis_no_contact";
+    if (width_m >= judgement.gripper.max_width_m) return "axis_too_wide";
     const double lean_rad =
         std::max(angle_between(closing, -left->normal_P), angle_between(closing, right->normal_P));
     if (lean_rad > config.opposite_candidates.max_lean_rad) return "axis_leans";
     axis.left_P = left->point_P;
     axis.right_P = right->point_P;
-    const double lever_m = (center_of_mass_P - axis.left_P).cross(closing).norm();
+    const double lever_m = (judgement.center_of_mass_P - axis.left_P).cross(closing).norm();
     probed.badness_rad = lean_rad + config.search.lever_weight_rad_m * lever_m;
     return nullptr;
+}
+
+bool approach_allowed(const Judgement& judgement, const Eigen::Isometry3d& X_PG) {
+    const auto& cones = judgement.request.approach_cones;
+    const Eigen::Vector3d z_F = judgement.X_FP.linear() * X_PG.linear().col(2);
+    return cones.empty() || std::ranges::any_of(cones, [&](const ApproachCone& cone) {
+               return std::acos(std::clamp(z_F.dot(cone.axis_F), -1.0, 1.0)) <= cone.half_angle_rad;
+           });
+}
+
+/// Looks along the middle lines of palm and fingers. @return the typed reason when one is blocked
+const char* line_blocked(const Judgement& judgement, const Eigen::Isometry3d& X_PG,
+                         double width_m) {
+    const ManipulabilityConfig& config = judgement.config.manipulability;
+    const double least_margin_m =
+        std::ldexp(config.preshape_margin_m, -static_cast<int>(config.preshape_halvings));
+    const auto parts = gripper_parts(judgement.gripper, width_m, width_m + 2.0 * least_margin_m);
+    for (const GripperPart& part : parts) {
+        Eigen::Vector3d front = part.box_G.center(), rear = front;
+        front.z() = part.box_G.max().z();
+        rear.z() = part.box_G.min().z() - config.approach_distance_m;
+        if (judgement.object.tree_P->segment_blocked(X_PG * front, X_PG * rear)) {
+            return &part == &parts.front() ? "palm_line_blocked" : "finger_line_blocked";
+        }
+    }
+    return nullptr;
+}
+
+/// Fills in the poses from which a hand can come.
+void find_poses(ProbedAxis& probed, const Judgement& judgement) {
+    const SearchConfig& search = judgement.config.search;
+    const double step_m = search.insertion_tip_offsets * judgement.gripper.tip_offset_m;
+    const double width_m = (probed.axis.right_P - probed.axis.left_P).norm();
+    for (std::uint32_t turn = 0; turn < search.approaches; ++turn) {
+        for (std::uint32_t depth = 0; depth < search.insertions; ++depth) {
+            // 0, deeper, shallower, deeper still, ...
+            const double steps = 0.5 * (depth + 1) * (depth % 2 == 1 ? 1.0 : -1.0);
+            const ApproachPose pose{2.0 * std::numbers::pi * turn / search.approaches,
+                                    std::trunc(steps) * step_m};
+            const Eigen::Isometry3d X_PG = local_frame(probed.axis, pose);
+            if (!approach_allowed(judgement, X_PG)) {
+                probed.fallen.add("outside_approach_cones");
+            } else if (const char* reason = line_blocked(judgement, X_PG, width_m)) {
+                probed.fallen.add(reason);
+            } else {
+                probed.axis.poses.push_back(pose);
+            }
+        }
+    }
 }
 
 bool similar(const ClosingAxis& a, const ClosingAxis& b, double near_m, double angle_rad) {
@@ -72,38 +123,48 @@ bool similar(const ClosingAxis& a, const ClosingAxis& b, double near_m, double a
     const Eigen::Vector3d middle_b = 0.5 * (b.left_P + b.right_P);
     if ((middle_a - middle_b).norm() > near_m) return false;
     const double angle = angle_between(a.right_P - a.left_P, b.right_P - b.left_P);
-    return std::min(angle, M_PI - angle) <= angle_rad;
+    return std::min(angle, std::numbers::pi - angle) <= angle_rad;
+}
+
+/// Probes every axis and keeps those that can be grasped and reached.
+std::vector<ProbedAxis> probe_all(std::vector<ClosingAxis> axes, const Judgement& judgement,
+                                  Rejections& rejections) {
+    std::vector<ProbedAxis> probed;
+    for (ClosingAxis& axis : axes) {
+        ProbedAxis candidate{std::move(axis), 0.0, {}};
+        if (const char* reason = probe(candidate, judgement)) {
+            rejections.add(reason);
+            continue;
+        }
+        find_poses(candidate, judgement);
+        if (candidate.axis.poses.empty()) {
+            rejections.add("axis_out_of_reach");
+        } else {
+            probed.push_back(std::move(candidate));
+        }
+    }
+    return probed;
 }
 
 }  // namespace
 
 std::vector<ClosingAxis> choose_axes(std::vector<ClosingAxis> axes, std::uint32_t most,
-                                     const PreparedObject& object,
-                                     const Eigen::Vector3d& center_of_mass_P,
-                                     const Gripper& gripper, const PlannerConfig& config,
-                                     Rejections& rejections) {
-    std::vector<ProbedAxis> probed;
-    for (ClosingAxis& axis : axes) {
-        ProbedAxis candidate{std::move(axis), 0.0};
-        const char* reason = probe(candidate, object, center_of_mass_P, gripper, config);
-        if (reason != nullptr) {
-            rejections.add(reason);
-        } else {
-            probed.push_back(std::move(candidate));
-        }
-    }
+                                     const Judgement& judgement, Rejections& rejections) {
+    auto probed = probe_all(std::move(axes), judgement, rejections);
     std::ranges::stable_sort(probed, {}, &ProbedAxis::badness_rad);
-    const double near_m = config.rank_grasps.same_distance_finger_widths * gripper.finger_width_m;
+    const RankGraspsConfig& same = judgement.config.rank_grasps;
+    const double near_m = same.same_distance_finger_widths * judgement.gripper.finger_width_m;
     std::vector<ClosingAxis> chosen;
     for (const ProbedAxis& candidate : probed) {
         const bool known = std::ranges::any_of(chosen, [&](const ClosingAxis& better) {
-            return similar(candidate.axis, better, near_m, config.rank_grasps.same_angle_rad);
+            return similar(candidate.axis, better, near_m, same.same_angle_rad);
         });
         if (known) {
             rejections.add("axis_similar");
         } else if (chosen.size() == most) {
             rejections.add("axis_surplus");
         } else {
+            rejections.merge(candidate.fallen);
             chosen.push_back(candidate.axis);
         }
     }

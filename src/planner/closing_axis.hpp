@@ -1,12 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "graspd/planner/plan_types.hpp"
 
 namespace graspd::planner_detail {
+
+/// How a hand comes to a closing axis.
+struct ApproachPose {
+    double turn_rad = 0.0;  ///< [rad] about Gx, from the reference direction
+    double deeper_m = 0.0;  ///< [m] along Gz
+};
 
 /// A line that a hand could close along, from whichever source. Frame P throughout.
 struct ClosingAxis {
@@ -15,8 +22,13 @@ struct ClosingAxis {
     Eigen::Vector3d reference_P = Eigen::Vector3d::Zero();  ///< unit: the first approach direction,
                                                             ///< at right angles to left-right
     GraspSource source = kBoundary;
-    std::int32_t concavity = -1;  ///< index of the region, deepest first; -1: none
-    double depth_m = 0.0;         ///< [m] of that region
+    std::int32_t concavity = -1;      ///< index of the region, deepest first; -1: none
+    double depth_m = 0.0;             ///< [m] of that region
+    std::vector<ApproachPose> poses;  ///< those that are worth a full check
 };
+
+/// Grasp frame of Figs. 16-17: Gx along the axis, Gz turned about it from the reference direction,
+/// origin in the middle between the axis's ends, or deeper.
+Eigen::Isometry3d local_frame(const ClosingAxis& axis, const ApproachPose& pose);
 
 }  // namespace graspd::planner_detail

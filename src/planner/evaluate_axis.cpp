@@ -10,26 +10,6 @@ namespace {
 
 constexpr double kRecheck_m = 2e-4;  // a hand moved by less than this needs no second motion check
 
-/// Local frame of Figs. 16-17: Gx along the axis, Gz turned about it from the reference direction.
-Eigen::Isometry3d local_frame(const ClosingAxis& axis, double turn_rad, double deeper_m) {
-    const Eigen::Vector3d x = (axis.right_P - axis.left_P).normalized();
-    const Eigen::Vector3d z0 = axis.reference_P;
-    const Eigen::Vector3d z =
-        (std::cos(turn_rad) * z0 + std::sin(turn_rad) * x.cross(z0)).normalized();
-    Eigen::Isometry3d X_PG = Eigen::Isometry3d::Identity();
-    X_PG.linear() << x, z.cross(x), z;
-    X_PG.translation() = 0.5 * (axis.left_P + axis.right_P) + deeper_m * z;
-    return X_PG;
-}
-
-bool approach_allowed(const Judgement& judgement, const Eigen::Isometry3d& X_PG) {
-    const auto& cones = judgement.request.approach_cones;
-    const Eigen::Vector3d z_F = (judgement.X_FP.linear() * X_PG.linear().col(2));
-    return cones.empty() || std::ranges::any_of(cones, [&](const ApproachCone& cone) {
-               return std::acos(std::clamp(z_F.dot(cone.axis_F), -1.0, 1.0)) <= cone.half_angle_rad;
-           });
-}
-
 /// One pose under examination; each step returns false after it has counted the reason.
 class Examination {
 public:
@@ -153,23 +133,13 @@ void Examination::grade() {
 
 std::vector<GradedGrasp> evaluate_axis(const ClosingAxis& axis, const Judgement& judgement,
                                        Rejections& rejections, StageLog& log) {
-    const SearchConfig& search = judgement.config.search;
     std::vector<GradedGrasp> grasps;
-    for (std::uint32_t turn = 0; turn < search.approaches; ++turn) {
-        const double turn_rad = 2.0 * std::numbers::pi * turn / search.approaches;
-        for (std::uint32_t depth = 0; depth < search.insertions; ++depth) {
-            const double deeper_m =
-                depth * search.insertion_tip_offsets * judgement.gripper.tip_offset_m;
-            Examination pose(axis, judgement, rejections, log);
-            pose.grasp_.X_PG = local_frame(axis, turn_rad, deeper_m);
-            if (!approach_allowed(judgement, pose.grasp_.X_PG)) {
-                rejections.add("outside_approach_cones");
-                continue;
-            }
-            if (!pose.motion_free() || !pose.close() || !pose.balance()) continue;
-            pose.grade();
-            grasps.push_back(pose.grasp_);
-        }
+    for (const ApproachPose& approach : axis.poses) {
+        Examination pose(axis, judgement, rejections, log);
+        pose.grasp_.X_PG = local_frame(axis, approach);
+        if (!pose.motion_free() || !pose.close() || !pose.balance()) continue;
+        pose.grade();
+        grasps.push_back(pose.grasp_);
     }
     return grasps;
 }

@@ -39,8 +39,7 @@ void Rounds::run(std::vector<ClosingAxis> axes, std::uint32_t most) {
     SearchResult round;
     const std::size_t found = axes.size();
     const auto chosen = log_.run(kChoose, found, [&] {
-        return choose_axes(std::move(axes), most, judgement_.object, judgement_.center_of_mass_P,
-                           judgement_.gripper, judgement_.config, round.rejections);
+        return choose_axes(std::move(axes), most, judgement_, round.rejections);
     });
     log_.out(kChoose, chosen.size());
     for (const ClosingAxis& axis : chosen) {

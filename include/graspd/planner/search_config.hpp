@@ -13,7 +13,7 @@ struct SearchConfig {
     std::uint32_t planes = 3;      ///< of a concavity's three plane pairs, the best so many
     std::uint32_t approaches = 8;  ///< directions about each closing axis
     std::uint32_t insertions = 2;  ///< depths of the pads; 1: their centres at the contact
-    double insertion_tip_offsets = 0.6;  ///< [1] further depth per insertion in tip offsets
+    double insertion_tip_offsets = 0.6;  ///< [1] between two depths, in tip offsets
     std::uint32_t probe_samples = 800;   ///< of the surface, for opposite candidates
     std::uint32_t boundary_pairs = 32;   ///< closing axes per concavity that are followed up
     std::uint32_t opposite_pairs = 96;   ///< closing axes of wall and of whole_object each

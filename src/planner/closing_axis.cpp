@@ -1,0 +1,18 @@
+#include "closing_axis.hpp"
+
+#include <cmath>
+
+namespace graspd::planner_detail {
+
+Eigen::Isometry3d local_frame(const ClosingAxis& axis, const ApproachPose& pose) {
+    const Eigen::Vector3d x = (axis.right_P - axis.left_P).normalized();
+    const Eigen::Vector3d& z0 = axis.reference_P;
+    const Eigen::Vector3d z =
+        (std::cos(pose.turn_rad) * z0 + std::sin(pose.turn_rad) * x.cross(z0)).normalized();
+    Eigen::Isometry3d X_PG = Eigen::Isometry3d::Identity();
+    X_PG.linear() << x, z.cross(x), z;
+    X_PG.translation() = 0.5 * (axis.left_P + axis.right_P) + pose.deeper_m * z;
+    return X_PG;
+}
+
+}  // namespace graspd::planner_detail
