@@ -151,12 +151,27 @@ private:
     Result<PlanReply> ask_once(const PlanRequest& request, wire::GraspRequest_& sample,
                                Clock::time_point deadline) {
         if (!listener_.wait_matched(deadline)) return no_reply(request, "no planner was found");
-        if (!writer_->write(&sample)) {
-            return no_reply(request, "the middleware could not send it");
-        }
+        if (auto error = send(request, sample, deadline)) return *std::move(error);
         const auto reply = listener_.wait_reply(deadline);
         if (!reply) return no_reply(request, "the planner did not answer in time");
         return read_reply(*reply);
+    }
+
+    /// Fast DDS 2.9 reports a timeout, early, when the full history of a volatile writer is emptied
+    /// by confirmations while it waits: trying again is all it takes.
+    std::optional<PlanError> send(const PlanRequest& request, wire::GraspRequest_& sample,
+                                  Clock::time_point deadline) {
+        while (true) {
+            const ReturnCode_t code =
+                writer_->write(&sample, eprosima::fastrtps::rtps::c_InstanceHandle_Unknown);
+            if (code == ReturnCode_t::RETCODE_OK) return std::nullopt;
+            if (code != ReturnCode_t::RETCODE_TIMEOUT) {
+                return PlanError{PlanErrorCode::kInternal,
+                                 "the middleware cannot send request " + shown(request.request_id) +
+                                     ": return code " + std::to_string(code())};
+            }
+            if (Clock::now() >= deadline) return no_reply(request, "the planner takes nothing");
+        }
     }
 
     const std::string client_id_;

@@ -1,0 +1,188 @@
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+
+#include "graspd/dds/planner_client.hpp"
+#include "graspd/dds/planner_port.hpp"
+#include "participant.hpp"
+#include "support/dds_domain.hpp"
+
+namespace graspd {
+namespace {
+
+using test::loopback_settings;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string loopback_text() {
+    std::ifstream file(loopback_settings().profile_file);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// Each test is a process of its own: the middleware keeps the profiles that it has read.
+class Profiles : public testing::Test {
+protected:
+    void SetUp() override { std::filesystem::create_directories(directory_); }
+    void TearDown() override { std::filesystem::remove_all(directory_); }
+
+    /// The loopback profile with one piece of text replaced, every time it occurs.
+    std::string edited(const std::string& from, const std::string& to) {
+        std::string text = loopback_text();
+        std::size_t at = text.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        for (; at != std::string::npos; at = text.find(from, at + to.size())) {
+            text.replace(at, from.size(), to);
+        }
+        return write(text);
+    }
+    /// The loopback profile with text replaced after the first place where `after` stands.
+    std::string edited_after(const std::string& after, const std::string& from,
+                             const std::string& to) {
+        std::string text = loopback_text();
+        const std::size_t at = text.find(from, text.find(after));
+        EXPECT_NE(at, std::string::npos) << from;
+        return write(text.replace(at, from.size(), to));
+    }
+    std::string write(const std::string& text) {
+        const auto file = directory_ / "profile.xml";
+        std::ofstream(file) << text;
+        return file.string();
+    }
+    /// The error of opening a port with a profile file.
+    static PlanError error_of(const std::string& file) {
+        DdsSettings settings = loopback_settings();
+        settings.profile_file = file;
+        auto port = PlannerPort::open(settings, [](auto) {});
+        EXPECT_FALSE(port.ok()) << file;
+        return port.ok() ? PlanError{} : port.error();
+    }
+
+    const std::filesystem::path directory_ =
+        std::filesystem::temp_directory_path() / ("graspd_profiles_" + std::to_string(::getpid()));
+};
+
+void expect_unreadable(const PlanError& error, const std::string& says) {
+    EXPECT_EQ(error.code, PlanErrorCode::kUnreadableFile);
+    EXPECT_THAT(error.detail, AllOf(HasSubstr("profile.xml"), HasSubstr(says)));
+}
+
+TEST_F(Profiles, ShippedOnesOpenBothEnds) {
+    EXPECT_TRUE(PlannerPort::open(loopback_settings(), [](auto) {}).ok());
+    EXPECT_TRUE(PlannerClient::open(loopback_settings(), "client").ok());
+}
+
+TEST_F(Profiles, SharedMemoryOneOpensBothEnds) {
+    DdsSettings settings = loopback_settings();
+    settings.profile_file = GRASPD_SOURCE_DIR "/profiles/dds/shm.xml";
+    EXPECT_TRUE(PlannerPort::open(settings, [](auto) {}).ok());
+    EXPECT_TRUE(PlannerClient::open(settings, "client").ok());
+}
+
+TEST_F(Profiles, MissingFileIsNamed) {
+    const auto error = error_of("/no/such/profile.xml");
+    EXPECT_EQ(error.code, PlanErrorCode::kUnreadableFile);
+    EXPECT_THAT(error.detail, HasSubstr("/no/such/profile.xml"));
+    EXPECT_EQ(error_of("").code, PlanErrorCode::kUnreadableFile);
+    EXPECT_EQ(error_of("/tmp").code, PlanErrorCode::kUnreadableFile);
+}
+
+TEST_F(Profiles, FileThatIsNotXmlIsRefused) {
+    expect_unreadable(error_of(write("domain: 7\n")), "not a valid profile file");
+}
+
+TEST_F(Profiles, CutFileIsRefused) {
+    const std::string text = loopback_text();
+    expect_unreadable(error_of(write(text.substr(0, text.size() / 2))), "not a valid profile file");
+}
+
+TEST_F(Profiles, UnknownElementIsRefused) {
+    error_of(edited("interfaceWhiteList", "interfaceWhitelist"));
+}
+
+TEST_F(Profiles, WrongValueIsRefused) {
+    error_of(edited_after("graspd_reply_writer", "TRANSIENT_LOCAL", "TRANSIENT_LOCALLY"));
+}
+
+class LackingProfiles : public Profiles, public testing::WithParamInterface<const char*> {};
+
+TEST_P(LackingProfiles, AreRefusedByName) {
+    const std::string name = GetParam();
+    expect_unreadable(error_of(edited("\"" + name + "\"", "\"other\"")), name);
+}
+INSTANTIATE_TEST_SUITE_P(Profiles, LackingProfiles,
+                         testing::Values("graspd_participant", "graspd_request_reader",
+                                         "graspd_request_writer", "graspd_reply_reader",
+                                         "graspd_reply_writer"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_F(Profiles, BestEffortRequestsAreRefused) {
+    expect_unreadable(error_of(edited_after("graspd_request_reader", "RELIABLE", "BEST_EFFORT")),
+                      "graspd_request_reader must be RELIABLE");
+}
+
+TEST_F(Profiles, ForgettingRequestsAreRefused) {
+    expect_unreadable(error_of(edited_after("graspd_request_reader", "KEEP_ALL", "KEEP_LAST")),
+                      "graspd_request_reader must be KEEP_ALL");
+}
+
+TEST_F(Profiles, VolatileRepliesAreRefused) {
+    expect_unreadable(error_of(edited_after("graspd_reply_writer", "TRANSIENT_LOCAL", "VOLATILE")),
+                      "graspd_reply_writer must be TRANSIENT_LOCAL");
+}
+
+// The middleware would keep the first file's profiles and say nothing.
+TEST_F(Profiles, SecondFileInOneProcessIsRefused) {
+    ASSERT_TRUE(PlannerPort::open(loopback_settings(), [](auto) {}).ok());
+    const auto error = error_of(write(loopback_text()));
+    EXPECT_EQ(error.code, PlanErrorCode::kInvalidInput);
+    EXPECT_THAT(error.detail, AllOf(HasSubstr("profile.xml"), HasSubstr("loopback.xml")));
+}
+
+TEST_F(Profiles, BadSettingsAreRefused) {
+    DdsSettings settings = loopback_settings();
+    settings.domain = 233;
+    const auto port = PlannerPort::open(settings, [](auto) {});
+    ASSERT_FALSE(port.ok());
+    EXPECT_EQ(port.error().code, PlanErrorCode::kInvalidInput);
+    EXPECT_THAT(port.error().detail, HasSubstr("domain = 233"));
+    settings = loopback_settings();
+    settings.max_payload_bytes = 0;
+    EXPECT_THAT(PlannerPort::open(settings, [](auto) {}).error().detail,
+                HasSubstr("max_payload_bytes = 0"));
+}
+
+// A profile file in the working folder, which the middleware would load by itself, changes nothing.
+TEST_F(Profiles, FileInTheWorkingFolderIsNotRead) {
+    std::ofstream(directory_ / "DEFAULT_FASTRTPS_PROFILES.xml")
+        << edited_after("graspd_request_reader", "KEEP_ALL", "KEEP_LAST");
+    std::filesystem::current_path(directory_);
+    EXPECT_TRUE(PlannerPort::open(loopback_settings(), [](auto) {}).ok());
+    std::filesystem::current_path("/");
+}
+
+// Every address that the participant announces, and so listens on, is the loopback interface's.
+TEST_F(Profiles, LoopbackProfileStaysOnLoopback) {
+    auto joined = dds::Participant::join(loopback_settings());
+    ASSERT_TRUE(joined.ok());
+    auto& factory = *dds::fast::DomainParticipantFactory::get_instance();
+    dds::fast::DomainParticipantQos qos;
+    ASSERT_EQ(factory.get_participant_qos_from_profile(dds::kParticipantProfile, qos),
+              eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK);
+    EXPECT_FALSE(qos.transport().use_builtin_transports);
+    ASSERT_EQ(qos.transport().user_transports.size(), 1u);
+    const auto* udp = dynamic_cast<const eprosima::fastdds::rtps::UDPv4TransportDescriptor*>(
+        qos.transport().user_transports[0].get());
+    ASSERT_NE(udp, nullptr);
+    EXPECT_THAT(udp->interfaceWhiteList, testing::ElementsAre("127.0.0.1"));
+}
+
+}  // namespace
+}  // namespace graspd
