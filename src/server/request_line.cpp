@@ -16,7 +16,9 @@ bool is_printable(char c) {
     return c >= ' ' && c <= '~';
 }
 
-std::string quoted(const std::string& text) {
+}  // namespace
+
+std::string log_value(const std::string& text) {
     if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
     std::string out = "\"";
     for (const char c : text) {
@@ -26,14 +28,12 @@ std::string quoted(const std::string& text) {
     return out + '"';
 }
 
-}  // namespace
-
 std::string request_line(const Answer& answer) {
     const RequestIdentity& identity = answer.out.to->identity();
     const PlanReply& reply = answer.out.reply;
     std::ostringstream line;
-    line << std::fixed << std::setprecision(2) << "id=" << quoted(identity.request_id)
-         << " client=" << quoted(identity.client_id) << " status=" << to_string(reply.status)
+    line << std::fixed << std::setprecision(2) << "id=" << log_value(identity.request_id)
+         << " client=" << log_value(identity.client_id) << " status=" << to_string(reply.status)
          << " attempt=" << answer.out.attempt << " written=" << (answer.written ? "yes" : "no")
          << " points=" << answer.work.points << " grasps=" << reply.grasps.size()
          << " total_ms=" << answer.total_ms << " queue_ms=" << answer.work.queue_ms
@@ -41,7 +41,7 @@ std::string request_line(const Answer& answer) {
     for (const StageReport& stage : reply.report.stages) {
         line << ' ' << stage.name << "_ms=" << stage.ms;
     }
-    if (!reply.message.empty()) line << " message=" << quoted(reply.message);
+    if (!reply.message.empty()) line << " message=" << log_value(reply.message);
     return line.str();
 }
 
