@@ -1,0 +1,172 @@
+#include <pthread.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+
+#include "daemon_arguments.hpp"
+#include "graspd/config/domain_id.hpp"
+#include "graspd/config/load_config.hpp"
+#include "graspd/config/load_gripper.hpp"
+#include "graspd/config/profile_directory.hpp"
+#include "graspd/config/version.hpp"
+#include "planner_service.hpp"
+#include "profile_interfaces.hpp"
+#include "request_line.hpp"
+
+// graspd: the planner as a DDS participant. Here, and nowhere else, it is decided what is built
+// with what.
+
+namespace {
+
+using namespace graspd;          // NOLINT(google-build-using-namespace): this is its program
+using namespace graspd::server;  // NOLINT(google-build-using-namespace)
+
+constexpr int kExitInternal = 1;  // as graspctl's
+constexpr int kExitUsage = 2;
+
+// Together they keep the promise to be gone two seconds after SIGTERM, with time left for the
+// middleware to leave the domain.
+constexpr std::chrono::milliseconds kStopGrace{500};  // PlannerService::stop takes twice that
+constexpr std::chrono::milliseconds kAcknowledgeWait{300};
+
+/// Everything that was read before a thread starts.
+struct Setup {
+    DaemonConfig config;
+    DdsSettings dds;
+    std::vector<Gripper> grippers;
+};
+
+std::string process_name() {
+    std::array<char, 256> host{};
+    const bool known = ::gethostname(host.data(), host.size() - 1) == 0;
+    return std::string(known ? host.data() : "graspd") + ":" + std::to_string(::getpid());
+}
+
+Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) {
+    const auto domain = choose_domain(arguments.domain);
+    if (!domain.ok()) return domain.error();
+    const auto profiles = find_profiles();
+    if (!profiles.ok()) return profiles.error();
+    auto grippers = load_grippers(profiles.value() / "grippers");
+    if (!grippers.ok()) return grippers.error();
+    DdsSettings dds;
+    dds.domain = domain.value();
+    dds.profile_file = arguments.profile_file.empty()
+                           ? (profiles.value() / "dds" / "loopback.xml").string()
+                           : arguments.profile_file;
+    dds.planner_id = process_name();
+    dds.version = version();
+    dds.config_hash = config_hash(config.planner);
+    dds.max_payload_bytes = config.server.max_payload_bytes;
+    return Setup{config, std::move(dds), std::move(grippers).value()};
+}
+
+void open_log(const std::string& level) {
+    auto log = spdlog::stderr_logger_mt("graspd");
+    log->set_pattern("time=%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
+    log->set_level(spdlog::level::from_str(level));
+    log->flush_on(spdlog::level::trace);
+    spdlog::set_default_logger(std::move(log));
+}
+
+void log_ready(const Setup& setup) {
+    std::string names;
+    for (const Gripper& gripper : setup.grippers) {
+        names += (names.empty() ? "" : " ") + gripper.name;
+    }
+    const DdsSettings& dds = setup.dds;
+    spdlog::info(
+        "event=ready domain={} interfaces={} profile={} planner_id={} version={} config_hash={} "
+        "workers={} queue_capacity={} grippers={}",
+        dds.domain, log_value(profile_file_interfaces(dds.profile_file)),
+        log_value(dds.profile_file), log_value(dds.planner_id), dds.version, dds.config_hash,
+        setup.config.server.workers, setup.config.server.queue_capacity, log_value(names));
+}
+
+void log_answer(const Answer& answer) {
+    const bool fault = answer.out.reply.status == PlanStatus::kInternalError || !answer.written;
+    spdlog::log(fault ? spdlog::level::err : spdlog::level::info, "event=request {}",
+                request_line(answer));
+}
+
+void log_end(const ServiceCounters& counters, const PlannerPort& port) {
+    const auto count = [&](PlanStatus status) {
+        return counters.answers.at(static_cast<std::size_t>(status));
+    };
+    spdlog::info(
+        "event=stopped received={} ok={} no_grasp={} partial={} overloaded={} cancelled={} "
+        "internal_error={} repeated={} lost={} rejected_payloads={}",
+        counters.received, count(PlanStatus::kOk), count(PlanStatus::kNoGrasp),
+        count(PlanStatus::kPartial), count(PlanStatus::kOverloaded), count(PlanStatus::kCancelled),
+        count(PlanStatus::kInternalError), counters.repeated, counters.lost,
+        port.rejected_payloads());
+}
+
+int fail(const PlanError& error) {
+    std::cerr << "graspd: " << error.detail << '\n';
+    return error.code == PlanErrorCode::kInternal ? kExitInternal : kExitUsage;
+}
+
+/// Serves until a signal comes. @return the exit code
+int serve(const Setup& setup, const sigset_t& signals) {
+    std::unique_ptr<PlannerPort> port;
+    PlannerService service(
+        setup.config.server,
+        {setup.grippers,
+         [&](const PlanRequest& request, const StopQuery& stop_requested) {
+             return plan(request, setup.config.planner, stop_requested);
+         },
+         [&](const OutgoingReply& reply) { return port->write(reply); }, log_answer});
+    auto opened =
+        PlannerPort::open(setup.dds, [&](auto request) { service.handle(std::move(request)); });
+    if (!opened.ok()) return fail(opened.error());
+    port = std::move(opened).value();
+    service.start();
+    log_ready(setup);
+
+    int signal = 0;
+    sigwait(&signals, &signal);
+    spdlog::info("event=stopping signal={}", signal);
+    port->stop_listening();
+    const bool ended = service.stop(kStopGrace);
+    const bool confirmed = port->wait_acknowledged(kAcknowledgeWait);
+    if (!confirmed) spdlog::warn("event=unconfirmed what=\"some replies were not acknowledged\"");
+    log_end(service.counters(), *port);
+    if (!ended) std::_Exit(0);  // a planner that does not stop must not keep the process
+    return 0;
+}
+
+int run(const DaemonArguments& arguments, const sigset_t& signals) {
+    const auto config = daemon_config(arguments);
+    if (!config.ok()) return fail(config.error());
+    if (arguments.print_config) {
+        std::cout << print_config(config.value()) << std::flush;
+        return std::cout ? 0 : kExitInternal;
+    }
+    const auto setup = read_setup(arguments, config.value());
+    if (!setup.ok()) return fail(setup.error());
+    open_log(arguments.log_level);
+    return serve(setup.value(), signals);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // before any thread, so that all inherit it
+    std::signal(SIGPIPE, SIG_IGN);  // whoever reads the log may leave
+    const auto arguments = parse_daemon_arguments(argc, argv);
+    if (const int* code = std::get_if<int>(&arguments)) return *code;
+    try {
+        return run(std::get<DaemonArguments>(arguments), signals);
+    } catch (const std::exception& error) {
+        return fail({PlanErrorCode::kInternal, error.what()});
+    }
+}

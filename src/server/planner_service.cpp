@@ -1,0 +1,196 @@
+#include "planner_service.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "make_reply.hpp"
+
+namespace graspd::server {
+namespace {
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+        .count();
+}
+
+ReplyCacheLimits cache_limits(const ServerConfig& config) {
+    return {config.reply_cache_entries, config.reply_cache_bytes, config.queue_capacity};
+}
+
+}  // namespace
+
+PlannerService::PlannerService(const ServerConfig& config, ServiceParts parts)
+    : parts_(std::move(parts)),
+      worker_count_(config.workers),
+      queue_(config.queue_capacity),
+      outbox_(std::numeric_limits<std::size_t>::max()),
+      objects_(config.object_cache_bytes),
+      cache_(cache_limits(config)) {}
+
+PlannerService::~PlannerService() {
+    stop(std::chrono::seconds(1));
+}
+
+void PlannerService::start() {
+    const std::scoped_lock lock(mutex_);
+    running_ = worker_count_;
+    writing_ = true;
+    for (std::uint32_t i = 0; i < worker_count_; ++i) threads_.emplace_back([this] { work(); });
+    threads_.emplace_back([this] { write_replies(); });
+}
+
+void PlannerService::handle(std::unique_ptr<IncomingRequest> request) noexcept {
+    try {
+        receive(RequestPtr(std::move(request)));
+    } catch (...) {  // no memory left for an answer either
+        const std::scoped_lock lock(mutex_);
+        ++counters_.lost;
+    }
+}
+
+void PlannerService::receive(const RequestPtr& request) {
+    const std::scoped_lock lock(mutex_);
+    ++counters_.received;
+    const ReplyCache::Admitted admitted = cache_.admit(request);
+    const auto answer = [&](const PlanReply& reply) {
+        send_locked({request, admitted.attempt, reply}, {});
+    };
+    switch (admitted.admission) {
+        case Admission::kWait: return;
+        case Admission::kAnswered: ++counters_.repeated; return answer(*admitted.reply);
+        case Admission::kOverloaded: return answer(overloaded(*request));
+        case Admission::kClash: return answer(id_clash(*request));
+        case Admission::kPlan: break;
+    }
+    open_.insert(request);
+    RequestPtr item = request;
+    if (queue_.try_push(item)) return;
+    const bool stopping = stop_.stop_requested();
+    finish_locked(request, stopping ? cancelled(*request) : overloaded(*request), {});
+}
+
+void PlannerService::work() {
+    while (const auto request = queue_.pop()) {
+        Work done;
+        PlanReply reply;
+        try {
+            reply = process(**request, done);
+        } catch (const std::exception& error) {
+            reply = internal_error(**request, error.what());
+        } catch (...) {
+            reply = internal_error(**request, "something that is no std::exception");
+        }
+        finish(*request, reply, done);
+    }
+    const std::scoped_lock lock(mutex_);
+    --running_;
+    changed_.notify_all();
+}
+
+/// Converts and plans one request.
+PlanReply PlannerService::process(const IncomingRequest& request, Work& work) {
+    work.queue_ms = ms_since(request.received());
+    if (stop_.stop_requested()) return cancelled(request);
+    const auto start = Clock::now();
+    auto converted = request.convert(parts_.grippers);
+    work.convert_ms = ms_since(start);
+    if (!converted.ok()) return refused(request, converted.error());
+    PlanRequest problem = std::move(converted).value();
+    const std::string& key = request.object_key();
+    if (!key.empty() && !fill_in_object(key, problem)) return unknown_object(request);
+    work.points = point_count(problem.object_O);
+    return plan_request(request, std::move(problem), work);
+}
+
+/// Puts the object of an earlier request into this one.
+bool PlannerService::fill_in_object(const std::string& key, PlanRequest& problem) {
+    const auto object = objects_.find(key);
+    if (object != nullptr) problem.object_O = *object;
+    return object != nullptr;
+}
+
+PlanReply PlannerService::plan_request(const IncomingRequest& request, PlanRequest problem,
+                                       Work& work) {
+    const auto deadline = deadline_of(request, problem.options);
+    if (Clock::now() >= deadline) return budget_spent(request, problem.options);
+    const auto start = Clock::now();
+    PlanReply reply =
+        parts_.plan(problem, [&] { return stop_.stop_requested() || Clock::now() >= deadline; });
+    work.plan_ms = ms_since(start);
+    if (!reply.object_key.empty()) objects_.put(reply.object_key, std::move(problem.object_O));
+    const bool empty = reply.status == PlanStatus::kPartial && reply.grasps.empty();
+    return empty && stop_.stop_requested() ? cancelled(request) : reply;
+}
+
+void PlannerService::finish(const RequestPtr& request, const PlanReply& reply, const Work& work) {
+    const std::scoped_lock lock(mutex_);
+    finish_locked(request, reply, work);
+}
+
+/// Answers a request and the retries that wait for it, unless stop() was faster.
+void PlannerService::finish_locked(const RequestPtr& request, const PlanReply& reply,
+                                   const Work& work) {
+    if (!open_.contains(request)) return;
+    const auto answered = cache_.complete(request, reply);
+    counters_.repeated += answered.size() - 1;
+    for (const auto& [to, attempt] : answered) send_locked({to, attempt, reply}, work);
+    open_.erase(request);
+    changed_.notify_all();
+}
+
+void PlannerService::send_locked(OutgoingReply reply, const Work& work) {
+    ++counters_.answers.at(static_cast<std::size_t>(reply.reply.status));
+    Answer answer{std::move(reply), work};
+    if (!outbox_.try_push(answer)) ++counters_.lost;  // closed: stop() has given up waiting
+}
+
+bool PlannerService::write(const OutgoingReply& reply) const noexcept {
+    try {
+        return parts_.write(reply);
+    } catch (...) {
+        return false;
+    }
+}
+
+void PlannerService::write_replies() {
+    while (auto answer = outbox_.pop()) {
+        answer->written = write(answer->out);
+        answer->total_ms = ms_since(answer->out.to->received());
+        if (!answer->written) {
+            const std::scoped_lock lock(mutex_);
+            ++counters_.lost;
+        }
+        if (parts_.log) parts_.log(*answer);
+    }
+    const std::scoped_lock lock(mutex_);
+    writing_ = false;
+    changed_.notify_all();
+}
+
+bool PlannerService::stop(std::chrono::milliseconds grace) {
+    const auto start = Clock::now();
+    stop_.request_stop();
+    for (const RequestPtr& waiting : queue_.close_and_take()) {
+        finish(waiting, cancelled(*waiting), {});
+    }
+    std::unique_lock lock(mutex_);
+    changed_.wait_until(lock, start + grace, [&] { return open_.empty() && running_ == 0; });
+    while (!open_.empty()) {
+        const RequestPtr late = *open_.begin();
+        finish_locked(late, cancelled(*late), {});
+    }
+    outbox_.close();
+    changed_.wait_until(lock, start + 2 * grace, [&] { return !writing_; });
+    counters_.lost += outbox_.close_and_take().size();
+    return running_ == 0 && !writing_;
+}
+
+ServiceCounters PlannerService::counters() const {
+    const std::scoped_lock lock(mutex_);
+    ServiceCounters now = counters_;
+    now.queued = queue_.size();
+    now.open = open_.size();
+    return now;
+}
+
+}  // namespace graspd::server

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <unordered_set>
+#include <vector>
+
+#include "bounded_queue.hpp"
+#include "graspd/dds/planner_port.hpp"
+#include "graspd/planner/planner.hpp"
+#include "object_store.hpp"
+#include "reply_cache.hpp"
+#include "server_config.hpp"
+
+namespace graspd::server {
+
+/// What the worker did for a request, for the log.
+struct Work {
+    std::size_t points = 0;   ///< vertices or cloud points of the object
+    double queue_ms = 0.0;    ///< [ms] from receipt until a worker took it
+    double convert_ms = 0.0;  ///< [ms] checking and converting
+    double plan_ms = 0.0;     ///< [ms] in the planner
+};
+
+/// A reply on its way out, or just written.
+struct Answer {
+    OutgoingReply out;
+    Work work;            ///< zeros for an answer that needed no worker
+    double total_ms = 0;  ///< [ms] from receipt until it was written
+    bool written = false;
+};
+
+/// What the service is made of; all of it may be replaced in tests.
+struct ServiceParts {
+    std::vector<Gripper> grippers;  ///< those that a request may name
+    std::function<PlanReply(const PlanRequest&, const StopQuery&)> plan;  ///< on many threads
+    std::function<bool(const OutgoingReply&)> write;  ///< on one thread; false: lost
+    std::function<void(const Answer&)> log;           ///< likewise, after the write; may be empty
+};
+
+/// A snapshot of what the service has done and has to do.
+struct ServiceCounters {
+    std::uint64_t received = 0;
+    std::array<std::uint64_t, 9> answers{};  ///< by PlanStatus
+    std::uint64_t repeated = 0;              ///< answers that came from the reply cache
+    std::uint64_t lost = 0;                  ///< answers that could not be written
+    std::size_t queued = 0;                  ///< waiting for a worker
+    std::size_t open = 0;                    ///< waiting or being planned
+};
+
+/// Takes requests and answers each of them exactly once, whatever happens.
+///
+///     handle() -> bounded queue -> workers: convert, plan -> outbox -> one writer thread
+///
+/// A request that finds the queue full is answered OVERLOADED at once; a retry gets the reply that
+/// its first sending got; an exception becomes INTERNAL_ERROR. A request's time budget counts from
+/// receipt. Replies do not depend on the number of workers.
+class PlannerService {
+public:
+    PlannerService(const ServerConfig& config, ServiceParts parts);
+    /// Stops; waits for planners that do not listen to their StopQuery.
+    ~PlannerService();
+    PlannerService(const PlannerService&) = delete;
+    PlannerService& operator=(const PlannerService&) = delete;
+
+    /// Starts the threads. Requests may come before: they wait in the queue.
+    void start();
+
+    /// Takes over a request; returns at once, never throws. Any thread.
+    void handle(std::unique_ptr<IncomingRequest> request) noexcept;
+
+    /// Takes no more requests: those that wait are answered CANCELLED, those being planned are
+    /// told to stop and answered. One that is not ready after `grace` is answered CANCELLED without
+    /// its planner; replies that are not written after twice `grace` are lost.
+    /// @return whether every thread has ended; if not, only leaving the process ends them
+    bool stop(std::chrono::milliseconds grace);
+
+    ServiceCounters counters() const;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    void work();
+    void write_replies();
+    PlanReply process(const IncomingRequest& request, Work& work);
+    PlanReply plan_request(const IncomingRequest& request, PlanRequest problem, Work& work);
+    bool fill_in_object(const std::string& key, PlanRequest& problem);
+    bool write(const OutgoingReply& reply) const noexcept;
+    void receive(const RequestPtr& request);
+    void finish(const RequestPtr& request, const PlanReply& reply, const Work& work);
+    void finish_locked(const RequestPtr& request, const PlanReply& reply, const Work& work);
+    void send_locked(OutgoingReply reply, const Work& work);
+
+    const ServiceParts parts_;
+    const std::uint32_t worker_count_;
+    BoundedQueue<RequestPtr> queue_;
+    BoundedQueue<Answer> outbox_;
+    ObjectStore objects_;
+    std::stop_source stop_;
+
+    mutable std::mutex mutex_;  ///< guards what follows
+    std::condition_variable changed_;
+    ReplyCache cache_;
+    std::unordered_set<RequestPtr> open_;  ///< taken in for planning and not answered yet
+    ServiceCounters counters_;
+    std::size_t running_ = 0;  ///< threads that have not ended
+    bool writing_ = false;     ///< the writer thread has not ended
+
+    std::vector<std::jthread> threads_;
+};
+
+}  // namespace graspd::server

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "graspd/planner/planner_config.hpp"
+
+namespace graspd::server {
+
+/// How the daemon takes requests; group `server` of planner.yaml.
+struct ServerConfig {
+    std::uint32_t workers = 2;                     ///< threads that plan
+    std::uint32_t queue_capacity = 16;             ///< waiting requests; more are OVERLOADED
+    std::uint32_t reply_cache_entries = 1024;      ///< replies kept for retries
+    std::uint64_t reply_cache_bytes = 64u << 20;   ///< [bytes] that those may take
+    std::uint64_t object_cache_bytes = 256 << 20;  ///< [bytes] of objects kept under their keys
+    std::uint32_t max_payload_bytes = 256u << 20;  ///< [bytes] a larger request is rejected
+
+    template <class Self, class Visitor>
+    static void describe(Self& self, Visitor&& visit) {
+        constexpr std::uint64_t kTerabyte = std::uint64_t{1} << 40;
+        visit("workers", self.workers, 1u, 256u);
+        visit("queue_capacity", self.queue_capacity, 1u, 100000u);
+        visit("reply_cache_entries", self.reply_cache_entries, 1u, 1000000u);
+        visit("reply_cache_bytes", self.reply_cache_bytes, std::uint64_t{1} << 16, kTerabyte);
+        visit("object_cache_bytes", self.object_cache_bytes, std::uint64_t{0}, kTerabyte);
+        visit("max_payload_bytes", self.max_payload_bytes, 1024u, 2147483647u);
+    }
+};
+
+/// Everything that planner.yaml can set for the daemon.
+struct DaemonConfig {
+    PlannerConfig planner;
+    ServerConfig server;
+
+    template <class Self, class Visitor>
+    static void describe(Self& self, Visitor&& visit) {
+        PlannerConfig::describe(self.planner, visit);
+        visit("server", self.server);
+    }
+};
+
+}  // namespace graspd::server
