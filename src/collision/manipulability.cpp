@@ -31,32 +31,50 @@ struct Motion {
     }
 };
 
-/// From cheap and likely to dear: fingers and palm where they end, then their ways.
-MotionCheck check_at(const Motion& motion) {
+/// Notes a block. @return whether there is one
+bool blocked(MotionCheck& check, MotionBlock block, std::optional<CollisionPartner> partner) {
+    if (!partner) return false;
+    check.block = block;
+    check.partner = *partner;
+    return true;
+}
+
+/// Fingers and palm where they end.
+MotionCheck check_end(const Motion& motion, const std::vector<GripperPart>& parts) {
     MotionCheck check;
     check.open_width_m = motion.open_width_m;
-    const auto blocked = [&](MotionBlock block, std::optional<CollisionPartner> partner) {
-        if (!partner) return false;
-        check.block = block;
-        check.partner = *partner;
-        return true;
-    };
-    const auto parts = gripper_parts(motion.gripper, motion.contact_width_m, motion.open_width_m);
     for (const std::size_t part : {1, 2, 0}) {
         const auto block = part == 0 ? MotionBlock::kPalm : MotionBlock::kFinger;
-        if (blocked(block, motion.hit(parts[part].box_G))) return check;
+        if (blocked(check, block, motion.hit(parts[part].box_G))) break;
     }
+    return check;
+}
+
+/// From cheap and likely to dear: where the parts end, then their ways.
+MotionCheck check_all(const Motion& motion) {
+    const auto parts = gripper_parts(motion.gripper, motion.contact_width_m, motion.open_width_m);
+    MotionCheck check = check_end(motion, parts);
+    if (!check.free()) return check;
     const auto closed =
         gripper_parts(motion.gripper, motion.contact_width_m,
                       motion.contact_width_m + 2.0 * motion.config.closing_tolerance_m);
     for (const std::size_t finger : {1, 2}) {
         const auto way = parts[finger].box_G.merged(closed[finger].box_G);
-        if (blocked(MotionBlock::kClosing, motion.hit(way))) return check;
+        if (blocked(check, MotionBlock::kClosing, motion.hit(way))) return check;
     }
     for (const GripperPart& part : parts) {
         const auto way = swept_back(part.box_G, motion.config.approach_distance_m);
-        if (blocked(MotionBlock::kApproach, motion.hit(way))) return check;
+        if (blocked(check, MotionBlock::kApproach, motion.hit(way))) return check;
     }
+    return check;
+}
+
+/// Whether even the narrowest pre-shape is wider than the gripper opens.
+MotionCheck check_width(const Gripper& gripper, double contact_width_m,
+                        const ManipulabilityConfig& config) {
+    MotionCheck check;
+    check.lacking_m = contact_width_m + 2.0 * least_preshape_margin_m(config) - gripper.max_width_m;
+    if (check.lacking_m > 0.0) check.block = MotionBlock::kTooWide;
     return check;
 }
 
@@ -75,27 +93,36 @@ std::string MotionCheck::reason() const {
     return "unknown";
 }
 
+double least_preshape_margin_m(const ManipulabilityConfig& config) {
+    return std::max(
+        std::ldexp(config.preshape_margin_m, -static_cast<int>(config.preshape_halvings)),
+        config.closing_tolerance_m);
+}
+
+MotionCheck check_pose(const CollisionWorld& world, const Gripper& gripper,
+                       const Eigen::Isometry3d& X_WG, double contact_width_m,
+                       const ManipulabilityConfig& config) {
+    const MotionCheck width = check_width(gripper, contact_width_m, config);
+    if (!width.free()) return width;
+    const double open_m = contact_width_m + 2.0 * least_preshape_margin_m(config);
+    return check_end({world, gripper, X_WG, contact_width_m, open_m, config},
+                     gripper_parts(gripper, contact_width_m, open_m));
+}
+
 MotionCheck check_motion(const CollisionWorld& world, const Gripper& gripper,
                          const Eigen::Isometry3d& X_WG, double contact_width_m,
                          const ManipulabilityConfig& config) {
-    const double least_margin_m =
-        std::max(std::ldexp(config.preshape_margin_m, -static_cast<int>(config.preshape_halvings)),
-                 config.closing_tolerance_m);
-    MotionCheck check;
-    check.lacking_m = contact_width_m + 2.0 * least_margin_m - gripper.max_width_m;
-    if (check.lacking_m > 0.0) {
-        check.block = MotionBlock::kTooWide;
-        return check;
-    }
+    MotionCheck check = check_width(gripper, contact_width_m, config);
+    if (!check.free()) return check;
     double margin_m = config.preshape_margin_m;
     double tried_m = -1.0;
     for (std::uint32_t i = 0; i <= config.preshape_halvings; ++i, margin_m *= 0.5) {
-        const double open_m = std::min(gripper.max_width_m,
-                                       contact_width_m + 2.0 * std::max(margin_m, least_margin_m));
+        const double gap_m = std::max(margin_m, least_preshape_margin_m(config));
+        const double open_m = std::min(gripper.max_width_m, contact_width_m + 2.0 * gap_m);
         if (open_m == tried_m) continue;
         tried_m = open_m;
-        check = check_at({world, gripper, X_WG, contact_width_m, open_m, config});
-        // A narrower hand stands no better with its palm, and closes over the same places.
+        check = check_all({world, gripper, X_WG, contact_width_m, open_m, config});
+        // A narrower hand stands no better with its palm.
         if (check.free() || check.block == MotionBlock::kPalm) return check;
     }
     return check;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -22,9 +21,8 @@ struct ClosingAxis {
     Eigen::Vector3d reference_P = Eigen::Vector3d::Zero();  ///< unit: the first approach direction,
                                                             ///< at right angles to left-right
     GraspSource source = kBoundary;
-    std::int32_t concavity = -1;      ///< index of the region, deepest first; -1: none
-    double depth_m = 0.0;             ///< [m] of that region
-    std::vector<ApproachPose> poses;  ///< those that are worth a full check
+    std::int32_t concavity = -1;  ///< index of the region, deepest first; -1: none
+    double depth_m = 0.0;         ///< [m] of that region
 };
 
 /// Grasp frame of Figs. 16-17: Gx along the axis, Gz turned about it from the reference direction,

@@ -3,9 +3,10 @@
 #include <algorithm>
 
 #include "boundary_axes.hpp"
-#include "choose_axes.hpp"
 #include "find_concavities.hpp"
+#include "find_poses.hpp"
 #include "opposite_axes.hpp"
+#include "order_axes.hpp"
 
 namespace graspd::planner_detail {
 namespace {
@@ -24,31 +25,56 @@ public:
         const unsigned sources = judgement_.request.options.sources;
         return sources == 0 || (sources & source) != 0;
     }
-    void run(std::vector<ClosingAxis> axes, std::uint32_t most);
+    void run(std::vector<ClosingAxis> axes);
     SearchResult take() { return std::move(result_); }
 
 private:
+    bool try_axis(const ClosingAxis& axis, std::uint32_t& poses_left, SearchResult& round);
+
     const Judgement& judgement_;
     const StopQuery& stop_requested_;
     StageLog& log_;
     SearchResult result_;
 };
 
-void Rounds::run(std::vector<ClosingAxis> axes, std::uint32_t most) {
-    constexpr const char* kChoose = "planner/choose_axes";
+void Rounds::run(std::vector<ClosingAxis> axes) {
+    constexpr const char* kOrder = "planner/order_axes";
     SearchResult round;
     const std::size_t found = axes.size();
-    const auto chosen = log_.run(kChoose, found, [&] {
-        return choose_axes(std::move(axes), most, judgement_, round.rejections);
-    });
-    log_.out(kChoose, chosen.size());
-    for (const ClosingAxis& axis : chosen) {
+    const auto ordered = log_.run(
+        kOrder, found, [&] { return order_axes(std::move(axes), judgement_, round.rejections); });
+    log_.out(kOrder, ordered.size());
+    std::vector<ClosingAxis> held;  // axes on which a grasp was found
+    std::uint32_t poses_left = judgement_.config.search.poses_per_round;
+    for (const ClosingAxis& axis : ordered) {
         if (stopped()) return;
-        auto grasps = evaluate_axis(axis, judgement_, round.rejections, log_);
-        std::ranges::move(grasps, std::back_inserter(round.grasps));
+        const bool known = std::ranges::any_of(
+            held, [&](const ClosingAxis& other) { return similar(axis, other, judgement_); });
+        const bool enough = held.size() >= judgement_.config.search.axes_per_round;
+        if (known || enough || poses_left == 0) {
+            round.rejections.add(known ? "axis_similar" : "axis_surplus");
+            continue;
+        }
+        if (try_axis(axis, poses_left, round)) held.push_back(axis);
     }
     std::ranges::move(round.grasps, std::back_inserter(result_.grasps));
     result_.rejections.merge(round.rejections);
+}
+
+/// Evaluates the poses of one axis. @return whether it gave a grasp
+bool Rounds::try_axis(const ClosingAxis& axis, std::uint32_t& poses_left, SearchResult& round) {
+    constexpr const char* kPoses = "planner/find_poses";
+    const auto poses =
+        log_.run(kPoses, 1, [&] { return find_poses(axis, judgement_, round.rejections); });
+    log_.out(kPoses, poses.size());
+    const std::size_t before = round.grasps.size();
+    for (const ApproachPose& pose : poses) {
+        if (auto grasp = evaluate_pose(axis, pose, judgement_, round.rejections, log_)) {
+            round.grasps.push_back(std::move(*grasp));
+        }
+    }
+    poses_left -= std::min(poses_left, static_cast<std::uint32_t>(poses.size()));
+    return round.grasps.size() > before;
 }
 
 }  // namespace
@@ -72,8 +98,7 @@ Result<SearchResult> search_grasps(const Judgement& judgement, const StopQuery& 
     if (rounds.wanted(kBoundary)) {
         for (std::size_t i = 0; i < concavities.value().size() && !rounds.stopped(); ++i) {
             rounds.run(boundary_axes(concavities.value()[i], static_cast<std::int32_t>(i),
-                                     surface.value(), object, gripper, config, log),
-                       config.search.boundary_pairs);
+                                     surface.value(), object, gripper, config, log));
         }
     }
     if ((rounds.wanted(kWall) || rounds.wanted(kWholeObject)) && !rounds.stopped()) {
@@ -84,7 +109,7 @@ Result<SearchResult> search_grasps(const Judgement& judgement, const StopQuery& 
             std::vector<ClosingAxis> of_source;
             std::ranges::copy_if(axes, std::back_inserter(of_source),
                                  [&](const ClosingAxis& a) { return a.source == source; });
-            rounds.run(std::move(of_source), config.search.opposite_pairs);
+            rounds.run(std::move(of_source));
         }
     }
     return rounds.take();

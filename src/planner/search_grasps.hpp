@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "evaluate_axis.hpp"
+#include "evaluate_pose.hpp"
 #include "graspd/planner/planner.hpp"
 
 namespace graspd::planner_detail {

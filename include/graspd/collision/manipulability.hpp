@@ -60,6 +60,15 @@ MotionCheck check_motion(const CollisionWorld& world, const Gripper& gripper,
                          const Eigen::Isometry3d& X_WG, double contact_width_m,
                          const ManipulabilityConfig& config);
 
+/// Checks fingers and palm at the grasp pose alone, open by the narrowest pre-shape: what fails
+/// here fails check_motion() too, so a cheap first question.
+MotionCheck check_pose(const CollisionWorld& world, const Gripper& gripper,
+                       const Eigen::Isometry3d& X_WG, double contact_width_m,
+                       const ManipulabilityConfig& config);
+
+/// [m] The narrowest gap beside each pad that a pre-shape leaves.
+double least_preshape_margin_m(const ManipulabilityConfig& config);
+
 /// The boxes that the hand sweeps from pre-grasp to grasp, in W: palm, left finger, right finger.
 std::vector<OrientedBox> swept_approach(const Gripper& gripper, const Eigen::Isometry3d& X_WG,
                                         double contact_width_m, double open_width_m,

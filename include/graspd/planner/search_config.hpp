@@ -13,13 +13,14 @@ struct SearchConfig {
     std::uint32_t planes = 3;      ///< of a concavity's three plane pairs, the best so many
     std::uint32_t approaches = 8;  ///< directions about each closing axis
     std::uint32_t insertions = 2;  ///< depths of the pads; 1: their centres at the contact
-    double insertion_tip_offsets = 0.6;  ///< [1] between two depths, in tip offsets
-    std::uint32_t probe_samples = 800;   ///< of the surface, for opposite candidates
-    std::uint32_t boundary_pairs = 32;   ///< closing axes per concavity that are followed up
-    std::uint32_t opposite_pairs = 96;   ///< closing axes of wall and of whole_object each
-    double lever_weight_rad_m = 4.0;     ///< [rad/m] of the lever against the lean, when axes are
-                                         ///< chosen
-    double most_clearance_m = 0.05;      ///< [m] clearance is measured up to here
+    double insertion_tip_offsets = 0.6;    ///< [1] between two depths, in tip offsets
+    std::uint32_t probe_samples = 800;     ///< of the surface, for opposite candidates
+    std::uint32_t axes_per_round = 24;     ///< a round (one concavity, the walls, the whole object)
+                                           ///< ends when so many axes gave a grasp,
+    std::uint32_t poses_per_round = 1000;  ///< or when so many poses were checked in full
+    double lever_weight_rad_m = 4.0;       ///< [rad/m] of the lever against the lean, when axes are
+                                           ///< chosen
+    double most_clearance_m = 0.05;        ///< [m] clearance is measured up to here
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
@@ -31,8 +32,8 @@ struct SearchConfig {
         visit("insertions", self.insertions, 1u, 10u);
         visit("insertion_tip_offsets", self.insertion_tip_offsets, 0.0, 2.0);
         visit("probe_samples", self.probe_samples, 100u, 1000000u);
-        visit("boundary_pairs", self.boundary_pairs, 1u, 100000u);
-        visit("opposite_pairs", self.opposite_pairs, 1u, 100000u);
+        visit("axes_per_round", self.axes_per_round, 1u, 100000u);
+        visit("poses_per_round", self.poses_per_round, 1u, 10000000u);
         visit("lever_weight_rad_m", self.lever_weight_rad_m, 0.0, 100.0);
         visit("most_clearance_m", self.most_clearance_m, 1e-3, 1.0);
     }

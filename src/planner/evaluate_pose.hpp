@@ -1,6 +1,7 @@
 #pragma once
 
-#include <vector>
+#include <array>
+#include <optional>
 
 #include "closing_axis.hpp"
 #include "judgement.hpp"
@@ -20,10 +21,11 @@ struct GradedGrasp {
     const Gripper* gripper = nullptr;
 };
 
-/// Sections II-E (local frames and clouds) and II-F for one closing axis: each of its poses is
-/// checked for motion, contact, force balance and friction. Those that
-/// fall are counted by their typed reason.
-std::vector<GradedGrasp> evaluate_axis(const ClosingAxis& axis, const Judgement& judgement,
-                                       Rejections& rejections, StageLog& log);
+/// Sections II-E (local frame and cloud) and II-F for one pose: can the hand stand there, where do
+/// its pads touch, do the two sides balance, is the whole motion free. A pose that falls is
+/// counted by its typed reason.
+std::optional<GradedGrasp> evaluate_pose(const ClosingAxis& axis, const ApproachPose& approach,
+                                         const Judgement& judgement, Rejections& rejections,
+                                         StageLog& log);
 
 }  // namespace graspd::planner_detail

@@ -1,14 +1,13 @@
-#include "evaluate_axis.hpp"
+#include "evaluate_pose.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace graspd::planner_detail {
 namespace {
 
-constexpr double kRecheck_m = 2e-4;  // a hand moved by less than this needs no second motion check
+constexpr const char* kManipulability = "collision/manipulability";
 
 /// One pose under examination; each step returns false after it has counted the reason.
 class Examination {
@@ -21,8 +20,9 @@ public:
         grasp_.width_m = (axis.right_P - axis.left_P).norm();
     }
 
-    bool motion_free();
+    bool reach();
     bool close();
+    bool move();
     bool balance();
     void grade();
 
@@ -33,56 +33,75 @@ private:
         rejections_.add(reason);
         return false;
     }
+    bool judge(const MotionCheck& check);
+    Result<LocalCloud> close_from_widest() const;
+
     const Judgement& judgement_;
     Rejections& rejections_;
     StageLog& log_;
     LocalCloud cloud_;
 };
 
-bool Examination::motion_free() {
-    const MotionCheck check = log_.run("collision/manipulability", 1, [&] {
-        return check_motion(judgement_.world_P, judgement_.gripper, grasp_.X_PG, grasp_.width_m,
-                            judgement_.config.manipulability);
-    });
-    if (check.free()) {
-        grasp_.open_width_m = check.open_width_m;
-        log_.out("collision/manipulability", 1);
-        return true;
-    }
+bool Examination::judge(const MotionCheck& check) {
+    if (check.free()) return true;
     if (check.block == MotionBlock::kTooWide) {
         rejections_.add_miss(check.reason(), grasp_.X_PG, check.lacking_m, "m",
                              judgement_.gripper.max_width_m);
-    } else {
-        rejections_.add(check.reason());
+        return false;
     }
-    return false;
+    return reject(check.reason().c_str());
+}
+
+/// Whether the hand can stand there at all.
+bool Examination::reach() {
+    return judge(log_.run(kManipulability, 1, [&] {
+        return check_pose(judgement_.world_P, judgement_.gripper, grasp_.X_PG, grasp_.width_m,
+                          judgement_.config.manipulability);
+    }));
+}
+
+/// Closes from the widest pre-shape whose pads begin outside the object.
+Result<LocalCloud> Examination::close_from_widest() const {
+    const Gripper& gripper = judgement_.gripper;
+    const ManipulabilityConfig& config = judgement_.config.manipulability;
+    PadFootprint footprint{0.5 * gripper.finger_width_m, gripper.tip_offset_m, 0.0};
+    double margin_m = config.preshape_margin_m;
+    for (std::uint32_t i = 0;; ++i, margin_m *= 0.5) {
+        footprint.half_reach_m = 0.5 * grasp_.width_m + margin_m;
+        auto cloud = local_cloud(judgement_.object.mesh_P, *judgement_.object.tree_P, grasp_.X_PG,
+                                 footprint, judgement_.config.local_cloud);
+        if (cloud.ok() || i == config.preshape_halvings) return cloud;
+    }
 }
 
 /// The fingers close: where the pads touch, how wide apart, and the hand in the middle of that.
 bool Examination::close() {
-    const Gripper& gripper = judgement_.gripper;
-    const PadFootprint footprint{0.5 * gripper.finger_width_m, gripper.tip_offset_m,
-                                 0.5 * grasp_.open_width_m};
-    const auto cloud = log_.run("grasp/local_cloud", 1, [&] {
-        return local_cloud(judgement_.object.mesh_P, *judgement_.object.tree_P, grasp_.X_PG,
-                           footprint, judgement_.config.local_cloud);
-    });
+    const auto cloud = log_.run("grasp/local_cloud", 1, [&] { return close_from_widest(); });
     if (!cloud) return reject("no_contact");
     cloud_ = cloud.value();
-    const double width_m = cloud_.right.x_G - cloud_.left.x_G;
-    if (width_m <= gripper.min_width_m) return reject("too_thin");
+    grasp_.width_m = cloud_.right.x_G - cloud_.left.x_G;
+    if (grasp_.width_m <= judgement_.gripper.min_width_m) return reject("too_thin");
     log_.out("grasp/local_cloud", 1);
     const double shift_m = 0.5 * (cloud_.left.x_G + cloud_.right.x_G);
-    const bool moved =
-        std::abs(shift_m) > kRecheck_m || std::abs(width_m - grasp_.width_m) > kRecheck_m;
     grasp_.X_PG.translation() += shift_m * grasp_.X_PG.linear().col(0);
-    grasp_.width_m = width_m;
     for (Eigen::Vector3d& point : cloud_.points_G) point.x() -= shift_m;
     for (PadTouch* touch : {&cloud_.left, &cloud_.right}) {
         touch->x_G -= shift_m;
         touch->point_G.x() -= shift_m;
     }
-    return !moved || motion_free();
+    return true;
+}
+
+/// Whether the whole motion to where the pads touch is free.
+bool Examination::move() {
+    const MotionCheck check = log_.run(kManipulability, 1, [&] {
+        return check_motion(judgement_.world_P, judgement_.gripper, grasp_.X_PG, grasp_.width_m,
+                            judgement_.config.manipulability);
+    });
+    if (!judge(check)) return false;
+    grasp_.open_width_m = check.open_width_m;
+    log_.out(kManipulability, 1);
+    return true;
 }
 
 /// Section II-F: the two sides, the angle between their lines, and the friction they need.
@@ -131,17 +150,14 @@ void Examination::grade() {
 
 }  // namespace
 
-std::vector<GradedGrasp> evaluate_axis(const ClosingAxis& axis, const Judgement& judgement,
-                                       Rejections& rejections, StageLog& log) {
-    std::vector<GradedGrasp> grasps;
-    for (const ApproachPose& approach : axis.poses) {
-        Examination pose(axis, judgement, rejections, log);
-        pose.grasp_.X_PG = local_frame(axis, approach);
-        if (!pose.motion_free() || !pose.close() || !pose.balance()) continue;
-        pose.grade();
-        grasps.push_back(pose.grasp_);
-    }
-    return grasps;
+std::optional<GradedGrasp> evaluate_pose(const ClosingAxis& axis, const ApproachPose& approach,
+                                         const Judgement& judgement, Rejections& rejections,
+                                         StageLog& log) {
+    Examination pose(axis, judgement, rejections, log);
+    pose.grasp_.X_PG = local_frame(axis, approach);
+    if (!pose.reach() || !pose.close() || !pose.balance() || !pose.move()) return std::nullopt;
+    pose.grade();
+    return pose.grasp_;
 }
 
 }  // namespace graspd::planner_detail

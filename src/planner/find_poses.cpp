@@ -1,0 +1,63 @@
+#include "find_poses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace graspd::planner_detail {
+namespace {
+
+bool approach_allowed(const Judgement& judgement, const Eigen::Isometry3d& X_PG) {
+    const auto& cones = judgement.request.approach_cones;
+    const Eigen::Vector3d z_F = judgement.X_FP.linear() * X_PG.linear().col(2);
+    return cones.empty() || std::ranges::any_of(cones, [&](const ApproachCone& cone) {
+               return std::acos(std::clamp(z_F.dot(cone.axis_F), -1.0, 1.0)) <= cone.half_angle_rad;
+           });
+}
+
+/// Looks along the middle lines of palm and fingers. @return the typed reason when one is blocked
+const char* line_blocked(const Judgement& judgement, const Eigen::Isometry3d& X_PG,
+                         double width_m) {
+    const ManipulabilityConfig& config = judgement.config.manipulability;
+    const double least_margin_m = least_preshape_margin_m(config);
+    const auto parts = gripper_parts(judgement.gripper, width_m, width_m + 2.0 * least_margin_m);
+    for (const GripperPart& part : parts) {
+        Eigen::Vector3d front = part.box_G.center(), rear = front;
+        front.z() = part.box_G.max().z();
+        rear.z() = part.box_G.min().z() - config.approach_distance_m;
+        if (judgement.object.tree_P->segment_blocked(X_PG * front, X_PG * rear)) {
+            return &part == &parts.front() ? "palm_line_blocked" : "finger_line_blocked";
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+std::vector<ApproachPose> find_poses(const ClosingAxis& axis, const Judgement& judgement,
+                                     Rejections& rejections) {
+    const SearchConfig& search = judgement.config.search;
+    const double step_m = search.insertion_tip_offsets * judgement.gripper.tip_offset_m;
+    const double width_m = (axis.right_P - axis.left_P).norm();
+    std::vector<ApproachPose> poses;
+    for (std::uint32_t turn = 0; turn < search.approaches; ++turn) {
+        for (std::uint32_t depth = 0; depth < search.insertions; ++depth) {
+            // 0, one deeper, one shallower, two deeper, ...
+            const std::uint32_t steps = (depth + 1) / 2;
+            const double side = depth % 2 == 1 ? 1.0 : -1.0;
+            const ApproachPose pose{2.0 * std::numbers::pi * turn / search.approaches,
+                                    side * steps * step_m};
+            const Eigen::Isometry3d X_PG = local_frame(axis, pose);
+            if (!approach_allowed(judgement, X_PG)) {
+                rejections.add("outside_approach_cones");
+            } else if (const char* reason = line_blocked(judgement, X_PG, width_m)) {
+                rejections.add(reason);
+            } else {
+                poses.push_back(pose);
+            }
+        }
+    }
+    return poses;
+}
+
+}  // namespace graspd::planner_detail

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "closing_axis.hpp"
+#include "judgement.hpp"
+#include "rejections.hpp"
+
+namespace graspd::planner_detail {
+
+/// The ways in which a hand can come to a closing axis: directions about it, and depths.
+///
+/// Reach is judged by the middle lines of palm and fingers alone; a pose whose lines are blocked
+/// needs no full check. A pose that falls is counted: outside_approach_cones, palm_line_blocked,
+/// finger_line_blocked.
+std::vector<ApproachPose> find_poses(const ClosingAxis& axis, const Judgement& judgement,
+                                     Rejections& rejections);
+
+}  // namespace graspd::planner_detail

@@ -1,0 +1,100 @@
+#include "order_axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace graspd::planner_detail {
+namespace {
+
+struct Touch {
+    Eigen::Vector3d point_P, normal_P;
+};
+
+struct ProbedAxis {
+    ClosingAxis axis;
+    double badness_rad = 0.0;  ///< lean, and the lever in units of lever_weight
+};
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// What a finger that comes from `margin_m` before `place` meets, up to `reach_m` further on.
+std::optional<Touch> touch(const PreparedObject& object, const Eigen::Vector3d& place,
+                           const Eigen::Vector3d& direction, double margin_m, double reach_m) {
+    const auto hit =
+        object.tree_P->first_hit(place - margin_m * direction, direction, margin_m + reach_m);
+    if (!hit || !hit->from_outside) return std::nullopt;
+    const Triangle& t = object.mesh_P.faces[hit->face];
+    const auto& v = object.mesh_P.vertices;
+    const Eigen::Vector3d normal = (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).stableNormalized();
+    return Touch{place + (hit->distance_m - margin_m) * direction, normal};
+}
+
+/// The touch of a finger with the widest margin that begins outside the object.
+std::optional<Touch> widest_touch(const PreparedObject& object, const Eigen::Vector3d& place,
+                                  const Eigen::Vector3d& direction, double reach_m,
+                                  const ManipulabilityConfig& config) {
+    double margin_m = config.preshape_margin_m;
+    for (std::uint32_t i = 0; i <= config.preshape_halvings; ++i, margin_m *= 0.5) {
+        if (auto met = touch(object, place, direction, margin_m, reach_m)) return met;
+    }
+    return std::nullopt;
+}
+
+/// Closes along the axis's line alone. @return the typed reason when it is no grasp
+const char* probe(ProbedAxis& probed, const Judgement& judgement) {
+    ClosingAxis& axis = probed.axis;
+    const PlannerConfig& config = judgement.config;
+    const double length_m = (axis.right_P - axis.left_P).norm();
+    const Eigen::Vector3d closing = (axis.right_P - axis.left_P) / length_m;
+    const auto left =
+        widest_touch(judgement.object, axis.left_P, closing, length_m, config.manipulability);
+    const auto right =
+        widest_touch(judgement.object, axis.right_P, -closing, length_m, config.manipulability);
+    if (!left || !right) return "axis_no_contact";
+    const double width_m = closing.dot(right->point_P - left->point_P);
+    if (width_m <= judgement.gripper.min_width_m) return "axis_no_contact";
+    if (width_m >= judgement.gripper.max_width_m) return "axis_too_wide";
+    const double lean_rad =
+        std::max(angle_between(closing, -left->normal_P), angle_between(closing, right->normal_P));
+    if (lean_rad > config.opposite_candidates.max_lean_rad) return "axis_leans";
+    axis.left_P = left->point_P;
+    axis.right_P = right->point_P;
+    const double lever_m = (judgement.center_of_mass_P - axis.left_P).cross(closing).norm();
+    probed.badness_rad = lean_rad + config.search.lever_weight_rad_m * lever_m;
+    return nullptr;
+}
+
+}  // namespace
+
+bool similar(const ClosingAxis& a, const ClosingAxis& b, const Judgement& judgement) {
+    const RankGraspsConfig& same = judgement.config.rank_grasps;
+    const double near_m = same.same_distance_finger_widths * judgement.gripper.finger_width_m;
+    const Eigen::Vector3d middle_a = 0.5 * (a.left_P + a.right_P);
+    const Eigen::Vector3d middle_b = 0.5 * (b.left_P + b.right_P);
+    if ((middle_a - middle_b).norm() > near_m) return false;
+    const double angle = angle_between(a.right_P - a.left_P, b.right_P - b.left_P);
+    return std::min(angle, std::numbers::pi - angle) <= same.same_angle_rad;
+}
+
+std::vector<ClosingAxis> order_axes(std::vector<ClosingAxis> axes, const Judgement& judgement,
+                                    Rejections& rejections) {
+    std::vector<ProbedAxis> probed;
+    for (ClosingAxis& axis : axes) {
+        ProbedAxis candidate{std::move(axis), 0.0};
+        if (const char* reason = probe(candidate, judgement)) {
+            rejections.add(reason);
+        } else {
+            probed.push_back(std::move(candidate));
+        }
+    }
+    std::ranges::stable_sort(probed, {}, &ProbedAxis::badness_rad);
+    std::vector<ClosingAxis> ordered;
+    for (ProbedAxis& candidate : probed) ordered.push_back(std::move(candidate.axis));
+    return ordered;
+}
+
+}  // namespace graspd::planner_detail
