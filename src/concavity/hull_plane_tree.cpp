@@ -94,4 +94,20 @@ HullPlaneTree::Nearest HullPlaneTree::nearest(const Eigen::Vector3d& point) cons
     return best;
 }
 
+std::uint32_t HullPlaneTree::exit(const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& direction) const {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    std::uint32_t best = 0;
+    for (std::uint32_t index = 0; index < facets_.size(); ++index) {
+        const double slope = facets_[index].normal.dot(direction);
+        if (!(slope > 0.0)) continue;
+        const double distance_m =
+            (facets_[index].offset_m - facets_[index].normal.dot(origin)) / slope;
+        if (distance_m >= nearest_m) continue;
+        nearest_m = distance_m;
+        best = index;
+    }
+    return best;
+}
+
 }  // namespace graspd

@@ -47,6 +47,9 @@ public:
     /// The facet whose plane is nearest; ties by the lower index.
     Nearest nearest(const Eigen::Vector3d& point) const;
 
+    /// The facet by whose plane a ray from inside leaves the hull. Cost O(facets).
+    std::uint32_t exit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
+
     const HullFacet& facet(std::uint32_t index) const { return facets_[index]; }
 
 private:

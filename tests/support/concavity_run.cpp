@@ -1,0 +1,19 @@
+#include "support/concavity_run.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graspd::test {
+
+ConcavityRun run_concavity(const TriangleMesh& mesh, const ConcavityConfig& config) {
+    auto hull = outer_hull(mesh.vertices);
+    EXPECT_TRUE(hull.ok()) << hull.error().detail;
+    if (!hull.ok()) return {};
+    const TriangleBvh bvh(mesh,
+                          mesh_diagonal_m(mesh) * config.start_offset / kOffsetOverRayTolerance);
+    auto field = shortest_path_concavity(mesh, hull.value(), bvh, config);
+    EXPECT_TRUE(field.ok()) << field.error().detail;
+    if (!field.ok()) return {};
+    return {std::move(hull).value(), std::move(field).value()};
+}
+
+}  // namespace graspd::test

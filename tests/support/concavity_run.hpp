@@ -1,0 +1,16 @@
+#pragma once
+
+#include "graspd/concavity/shortest_path_concavity.hpp"
+
+namespace graspd::test {
+
+/// A concavity field and the hull that its paths end on.
+struct ConcavityRun {
+    OuterHull hull;
+    ConcavityField field;
+};
+
+/// Hull, tree and concavity of a closed mesh; fails the running test when a stage does.
+ConcavityRun run_concavity(const TriangleMesh& mesh, const ConcavityConfig& config = {});
+
+}  // namespace graspd::test
