@@ -212,22 +212,29 @@ TEST(SampleSurface, ALinearFieldIsKept) {
     for (const SurfaceSample& sample : flat.value().samples) EXPECT_EQ(sample.concavity_m, 0.1);
 }
 
-// One enclosed vertex makes the whole face enclosed, and no other face: of a tetrahedron's four
-// faces only the one without that vertex has finite samples.
+// One enclosed vertex makes its faces enclosed, and no other: of a tetrahedron's four faces only
+// the one opposite the vertex, told by its normal, has finite samples.
 TEST(SampleSurface, AFaceWithAnEnclosedCornerIsEnclosed) {
     TriangleMesh mesh;
     mesh.vertices = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}};
     mesh.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    const auto surface =
-        sample_surface(mesh, std::vector<double>{0.0, 0.0, 0.0, kInfinity}, kFinger_m, {});
-    ASSERT_TRUE(surface.ok());
-    std::size_t finite = 0;
-    for (const SurfaceSample& sample : surface.value().samples) {
-        EXPECT_EQ(std::isfinite(sample.concavity_m), sample.point.z() == 0.0);
-        finite += std::isfinite(sample.concavity_m);
+    const Eigen::Vector3d opposite[4] = {Eigen::Vector3d::Ones().normalized(),
+                                         -Eigen::Vector3d::UnitX(), -Eigen::Vector3d::UnitY(),
+                                         -Eigen::Vector3d::UnitZ()};
+    for (std::size_t v = 0; v < 4; ++v) {
+        std::vector<double> value(4, 0.0);
+        value[v] = kInfinity;
+        const auto surface = sample_surface(mesh, value, kFinger_m, {});
+        ASSERT_TRUE(surface.ok());
+        std::size_t finite = 0;
+        for (const SurfaceSample& sample : surface.value().samples) {
+            const bool free = sample.normal.dot(opposite[v]) > 0.999;
+            EXPECT_EQ(sample.concavity_m, free ? 0.0 : kInfinity) << v;
+            finite += free;
+        }
+        EXPECT_GT(finite, 100U);
+        EXPECT_GT(surface.value().samples.size(), 3 * finite);
     }
-    EXPECT_GT(finite, 100U);
-    EXPECT_GT(surface.value().samples.size(), 3 * finite);
 }
 
 // A cube of 0.3 m has 0.54 m^2, at 3 mm 60000 samples. For 20000 the spacing grows to
