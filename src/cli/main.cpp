@@ -13,6 +13,7 @@ using namespace graspd::cli;  // NOLINT(google-build-using-namespace): this is i
 struct Arguments {
     PlanArguments plan;
     OutputArguments output;
+    DdsArguments dds;
     std::string units;
     std::string config_file;
 };
@@ -57,6 +58,19 @@ void add_plan(CLI::App& command, Arguments& to) {
     command.add_option("--report", to.output.report, "directory for reply.json and reply.txt");
 }
 
+#ifdef GRASPD_WITH_DDS
+void add_request(CLI::App& app, Arguments& to, std::function<int()>& run) {
+    auto* request = app.add_subcommand("request", "have a running graspd plan, over DDS");
+    add_plan(*request, to);
+    request->add_option("--domain", to.dds.domain, "DDS domain; default: ROS_DOMAIN_ID, else 0");
+    request->add_option("--profile", to.dds.profile, "Fast DDS profiles; default: loopback only");
+    request->add_option("--timeout", to.dds.timeout_ms, "[ms] for each attempt")
+        ->check(CLI::PositiveNumber);
+    request->add_option("--retries", to.dds.retries, "attempts after the first");
+    request->callback([&] { run = [&] { return run_request(to.plan, to.dds, to.output); }; });
+}
+#endif
+
 /// Adds the subcommands; each sets `run` to what it stands for.
 void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* plan = app.add_subcommand("plan", "plan grasps in this process");
@@ -65,6 +79,9 @@ void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     plan->add_option("--concavity", to.plan.concavity, "method")->check(CLI::IsMember(kMethods));
     plan->callback([&] { run = [&] { return run_plan(to.plan, to.config_file, to.output); }; });
 
+#ifdef GRASPD_WITH_DDS
+    add_request(app, to, run);
+#endif
     auto* grippers = app.add_subcommand("grippers", "list the known grippers");
     add_format(*grippers, to);
     grippers->callback([&] { run = [&] { return run_grippers(to.output); }; });
