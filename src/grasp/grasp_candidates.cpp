@@ -74,6 +74,11 @@ Result<std::vector<GraspCandidate>> grasp_candidates(std::span<const Eigen::Vect
             "grasp_candidates: max_gap_m = " + std::to_string(max_gap_m) + " is not above 0"};
     }
     if (auto bad = check_finite("grasp_candidates: boundary", boundary)) return *bad;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (steps[i].point.allFinite()) continue;
+        return PlanError{PlanErrorCode::kInvalidInput, "grasp_candidates: the point of steps[" +
+                                                           std::to_string(i) + "] is not finite"};
+    }
     std::vector<GraspCandidate> candidates;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         const Eigen::Vector2d& point = steps[i].point;

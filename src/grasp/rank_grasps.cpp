@@ -37,8 +37,10 @@ std::vector<std::size_t> cut(const std::vector<std::size_t>& order,
     if (order.size() <= max_grasps) return order;
     std::vector<std::size_t> kept;
     std::set<std::int32_t> seen;
-    for (const std::size_t i : order) {  // the best of each region
-        if (kept.size() < max_grasps && seen.insert(entries[i].concavity).second) kept.push_back(i);
+    for (const std::size_t i : order) {  // the best of each concavity
+        if (kept.size() == max_grasps) break;
+        if (entries[i].concavity < 0) continue;
+        if (seen.insert(entries[i].concavity).second) kept.push_back(i);
     }
     for (const std::size_t i : order) {  // then simply the best
         if (kept.size() == max_grasps) break;
