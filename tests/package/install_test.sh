@@ -16,6 +16,10 @@ diff <(cd "$source_dir/include" && find graspd -name '*.hpp' | sort) \
 
 echo "-- a consumer outside the tree finds, links and runs it"
 cp -r "$source_dir/tests/package/consumer" "$work/consumer"
+awk '/^<!-- package-test: readme_client -->$/ { wanted = 1; next }
+     wanted && /^```/ { if (inside) exit; inside = 1; next }
+     inside' "$source_dir/README.md" >"$work/consumer/readme_client.cpp"
+[ -s "$work/consumer/readme_client.cpp" ] || fail "README.md has no client"
 "$cmake" -S "$work/consumer" -B "$work/consumer/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$c_compiler" \
     -DCMAKE_CXX_COMPILER="$cxx_compiler" -DWITH_DDS="$with_dds" >"$work/log" 2>&1 || { cat "$work/log"; fail "configure"; }
