@@ -55,6 +55,11 @@ def layer_of(path):
     return "examples" if parts[0] == "examples" else None
 
 
+def lies_beside(file, header):
+    """Whether a header lies in a file's own folder; X.hpp.in becomes X.hpp in the build."""
+    return (file.parent / header).exists() or (file.parent / f"{header}.in").exists()
+
+
 def check_includes(root, path, lines):
     layer = layer_of(path)
     public = path.parts[0] == "include"
@@ -77,7 +82,7 @@ def check_includes(root, path, lines):
             yield number, f"{header} climbs out of its folder"
         elif GENERATED.search(header) and layer not in ("dds", "examples"):
             yield number, f"{layer} must not include the generated {header}"
-        elif quoted and not GENERATED.search(header) and not (root / path.parent / header).exists():
+        elif quoted and not GENERATED.search(header) and not lies_beside(root / path, header):
             yield number, f"{header} does not lie in {path.parent}"
 
 

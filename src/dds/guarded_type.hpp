@@ -10,7 +10,7 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
 #include "cdr_layout.hpp"
-#include "graspd/config/load_config.hpp"
+#include "graspd/base/fnv1a.hpp"
 
 namespace graspd::dds {
 

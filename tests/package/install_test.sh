@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs a build into a prefix of its own and uses it from there as a stranger would.
-#   install_test.sh SOURCE_DIR BUILD_DIR CMAKE C_COMPILER CXX_COMPILER
+#   install_test.sh SOURCE_DIR BUILD_DIR CMAKE C_COMPILER CXX_COMPILER WITH_DDS
 set -euo pipefail
-source_dir=$1 build_dir=$2 cmake=$3 c_compiler=$4 cxx_compiler=$5
+source_dir=$1 build_dir=$2 cmake=$3 c_compiler=$4 cxx_compiler=$5 with_dds=$6
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 prefix=$work/prefix
@@ -16,13 +16,21 @@ diff <(cd "$source_dir/include" && find graspd -name '*.hpp' | sort) \
 
 echo "-- a consumer outside the tree finds, links and runs it"
 cp -r "$source_dir/tests/package/consumer" "$work/consumer"
+awk '/^<!-- package-test: readme_client -->$/ { wanted = 1; next }
+     wanted && /^```/ { if (inside) exit; inside = 1; next }
+     inside' "$source_dir/README.md" >"$work/consumer/readme_client.cpp"
+[ -s "$work/consumer/readme_client.cpp" ] || fail "README.md has no client"
 "$cmake" -S "$work/consumer" -B "$work/consumer/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$c_compiler" \
-    -DCMAKE_CXX_COMPILER="$cxx_compiler" >"$work/log" 2>&1 || { cat "$work/log"; fail "configure"; }
+    -DCMAKE_CXX_COMPILER="$cxx_compiler" -DWITH_DDS="$with_dds" >"$work/log" 2>&1 || { cat "$work/log"; fail "configure"; }
 "$cmake" --build "$work/consumer/build" >"$work/log" 2>&1 || { cat "$work/log"; fail "build"; }
 status=$("$work/consumer/build/plan_box" "$prefix/share/graspd/profiles/grippers/parallel_85.yaml")
 echo "plan_box: $status"
-[ -n "$status" ] || fail "plan_box printed nothing"
+[[ $status =~ ^OK\ [1-9] ]] || fail "no grasp on a box"
+if [ "$with_dds" = ON ]; then
+    "$work/consumer/build/ask_planner" | tee "$work/log"
+    grep -q /nowhere/loopback.xml "$work/log" || fail "ask_planner"
+fi
 
 echo "-- the installed graspctl reads the installed profiles, not the source tree's"
 sed 's/parallel_85/only_installed/' "$source_dir/profiles/grippers/parallel_85.yaml" \
