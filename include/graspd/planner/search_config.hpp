@@ -12,7 +12,7 @@ struct SearchConfig {
                                    ///< times the samples of the region within it
     std::uint32_t planes = 3;      ///< of a concavity's three plane pairs, the best so many
     std::uint32_t approaches = 8;  ///< directions about each closing axis
-    std::uint32_t insertions = 2;  ///< depths of the pads; 1: their centres at the contact
+    std::uint32_t insertions = 3;  ///< depths of the pads; 1: their centres at the contact
     double insertion_tip_offsets = 0.6;    ///< [1] between two depths, in tip offsets
     std::uint32_t probe_samples = 800;     ///< of the surface, for opposite candidates
     std::uint32_t axes_per_round = 24;     ///< a round (one concavity, the walls, the whole object)
