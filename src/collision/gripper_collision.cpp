@@ -8,24 +8,17 @@
 #include <fcl/geometry/shape/box.h>
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
 
+#include "box_distance.hpp"
+
 namespace graspd {
 namespace {
 
-constexpr double kDistanceTolerance_m = 1e-10;  // FCL's default over-estimates by up to 0.05 mm
-
-struct Corners {
-    Eigen::Vector3d a, b, c;
-};
+using collision_detail::Corners;
+using collision_detail::distance_m;
 
 Corners corners_of(const TriangleMesh& mesh, std::uint32_t face) {
     const Triangle& t = mesh.faces[face];
     return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-}
-
-fcl::detail::GJKSolver_libccdd make_solver() {
-    fcl::detail::GJKSolver_libccdd solver;
-    solver.distance_tolerance = kDistanceTolerance_m;
-    return solver;
 }
 
 fcl::Boxd shape_of(const OrientedBox& box) {
@@ -33,12 +26,12 @@ fcl::Boxd shape_of(const OrientedBox& box) {
 }
 
 bool hits_body(const CollisionBody& body, const OrientedBox& box) {
-    const auto solver = make_solver();
+    const fcl::detail::GJKSolver_libccdd solver;
     const fcl::Boxd shape = shape_of(box);
     const std::vector<std::uint32_t> near = body.bvh->faces_near(box, 0.0);
     const bool hit = std::ranges::any_of(near, [&](std::uint32_t face) {
         const Corners t = corners_of(*body.mesh, face);
-        return solver.shapeTriangleIntersect(shape, box.pose, t.a, t.b, t.c);
+        return solver.shapeTriangleIntersect(shape, box.pose, t[0], t[1], t[2]);
     });
     // Without a common triangle the box lies either wholly outside or wholly inside.
     return hit || body.bvh->contains(box.pose.translation());
@@ -52,33 +45,20 @@ double height_over(const HalfSpace& plane, const OrientedBox& box) {
 }
 
 bool hits_box(const OrientedBox& keep_out, const OrientedBox& box) {
-    return make_solver().shapeIntersect(shape_of(keep_out), keep_out.pose, shape_of(box), box.pose,
-                                        nullptr);
+    return fcl::detail::GJKSolver_libccdd().shapeIntersect(shape_of(keep_out), keep_out.pose,
+                                                           shape_of(box), box.pose, nullptr);
 }
 
 double distance_to_body(const CollisionBody& body, const OrientedBox& box, double most_m) {
-    const auto solver = make_solver();
-    const fcl::Boxd shape = shape_of(box);
     constexpr double kFirstRing_m = 0.002;
     for (double ring_m = std::min(kFirstRing_m, most_m);; ring_m = std::min(4.0 * ring_m, most_m)) {
         double least = most_m;
         for (const std::uint32_t face : body.bvh->faces_near(box, ring_m)) {
-            const Corners t = corners_of(*body.mesh, face);
-            double distance = 0.0;
-            const bool apart = solver.shapeTriangleDistance(shape, box.pose, t.a, t.b, t.c,
-                                                            &distance, nullptr, nullptr);
-            least = std::min(least, apart ? std::max(0.0, distance) : 0.0);
+            least = std::min(least, distance_m(box, corners_of(*body.mesh, face), least));
         }
         // What lies beyond the ring is farther away than the ring is wide.
         if (least <= ring_m || ring_m >= most_m) return least;
     }
-}
-
-double distance_to_box(const OrientedBox& keep_out, const OrientedBox& box) {
-    double distance = 0.0;
-    const bool apart = make_solver().shapeDistance(shape_of(keep_out), keep_out.pose, shape_of(box),
-                                                   box.pose, &distance, nullptr, nullptr);
-    return apart ? std::max(0.0, distance) : 0.0;
 }
 
 }  // namespace
@@ -124,7 +104,8 @@ Clearance find_clearance(const CollisionWorld& world, std::span<const OrientedBo
             consider(height_over(*world.plane, boxes[i]), i, CollisionPartner::kPlane);
         }
         for (const OrientedBox& keep_out : world.keep_out) {
-            consider(distance_to_box(keep_out, boxes[i]), i, CollisionPartner::kKeepOut);
+            consider(distance_m(keep_out, boxes[i], least.distance_m), i,
+                     CollisionPartner::kKeepOut);
         }
         if (least.distance_m <= 0.0) break;
     }

@@ -123,6 +123,7 @@ double distance_m(const Corners& c, const Vector3d& half) {
 }
 
 TEST(GripperCollisionOracle, CollisionAgreesWithExactPredicatesOverAllFaces) {
+    int within_all = 0;
     for (const Object& object : objects()) {
         CollisionWorld world;
         world.object = {&object.mesh, &object.tree};
@@ -142,9 +143,10 @@ TEST(GripperCollisionOracle, CollisionAgreesWithExactPredicatesOverAllFaces) {
         }
         EXPECT_GT(hits, 300) << object.name;
         EXPECT_GT(free, 300) << object.name;
-        EXPECT_GT(within, 3) << object.name;
+        within_all += within;
         EXPECT_LT(skipped, 10) << object.name;
     }
+    EXPECT_GT(within_all, 10);  // wholly inside the solid
 }
 
 TEST(GripperCollisionOracle, ClearanceAgreesWithTheDistanceToEveryFace) {
@@ -161,8 +163,8 @@ TEST(GripperCollisionOracle, ClearanceAgreesWithTheDistanceToEveryFace) {
                 exact_m = std::min(exact_m,
                                    distance_m(corners_in(box, object.mesh, face), box.half_extent));
             }
-            const auto found = find_clearance(world, std::vector{box}, 0.02);
-            EXPECT_NEAR(found.distance_m, std::min(exact_m, 0.02), 1e-7)
+            const auto found = find_clearance(world, std::vector{box}, 0.03);
+            EXPECT_NEAR(found.distance_m, std::min(exact_m, 0.03), 1e-9)
                 << object.name << " pose " << i;
             ++compared;
         }

@@ -63,7 +63,9 @@ std::vector<Flaw> flaws_of_grippers() {
         {gripper(&Gripper::palm_depth_m, -1.0), "gripper.palm_depth", "-1"},
         {gripper(&Gripper::palm_z_m, -3.0), "gripper.palm_z", "-3"},
         {gripper(&Gripper::closing_yaw_rad, kNaN), "gripper.closing_yaw", "not a finite"},
-        {[](auto& r) { r.grippers.front().pad_travel = {{0.02, 0.1}, {0.01, 0.1}}; },
+        {[](auto& r) {
+             r.grippers.front().pad_travel = {{0.02, 0.1}, {0.01, 0.1}};
+         },
          "gripper.pad_travel", "0.01"},
         {[](auto& r) { r.grippers.push_back({}), r.grippers.back().max_width_m = -7.0; },
          "gripper.max_width", "-7"},
@@ -122,7 +124,9 @@ std::vector<Flaw> flaws_of_surroundings() {
         };
     };
     const auto cone = [](const Vector3d& axis, double angle) {
-        return [=](PlanRequest& r) { r.approach_cones = {{-Vector3d::UnitZ(), 1.0}, {axis, angle}}; };
+        return [=](PlanRequest& r) {
+            r.approach_cones = {{-Vector3d::UnitZ(), 1.0}, {axis, angle}};
+        };
     };
     const auto keep_out = [](auto&& change) {
         return [change](PlanRequest& r) {
@@ -157,8 +161,8 @@ std::vector<Flaw> flaws_of_surroundings() {
 }
 
 TEST(CheckRequest, NamesTheFieldAndTheValue) {
-    for (const auto& flaws : {flaws_of_grippers(), flaws_of_options(), flaws_of_poses(),
-                              flaws_of_surroundings()}) {
+    for (const auto& flaws :
+         {flaws_of_grippers(), flaws_of_options(), flaws_of_poses(), flaws_of_surroundings()}) {
         for (const Flaw& flaw : flaws) {
             PlanRequest request = test::small_request();
             flaw.make(request);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "graspd/planner/plan_types.hpp"
+#include "graspd/planner/planner_config.hpp"
+
+namespace graspd::test {
+
+/// A request for a mesh with parallel_85, all else default; the object lies in F as it is.
+PlanRequest request_for(TriangleMesh mesh_O);
+
+/// A solid of 70 x 40 x 50 mm that no turn and no mirror carries into itself: a plate with a boss
+/// and a smaller one beside it. Every part is narrower than parallel_85 opens.
+TriangleMesh lopsided(std::size_t faces);
+
+/// Reports what is wrong with a reply to a request with parallel_85 alone, grasp by grasp: frames,
+/// widths, contacts, friction, score, order, strategy; and the message.
+void expect_consistent(const PlanReply& reply, const PlanRequest& request,
+                       const PlannerConfig& config);
+
+/// Reports when rejections and grasps do not add up to what the stages were given: every axis is
+/// chosen or counted, every pose of a chosen axis is returned or counted. Not for stopped plans.
+void expect_counts_add_up(const PlanReply& reply, const PlannerConfig& config);
+
+/// Reports each difference in any field but the stages' times, to the last bit.
+void expect_identical(const PlanReply& a, const PlanReply& b);
+
+/// Count of a typed reason, 0 when it is missing.
+std::uint64_t rejections_of(const PlanReply& reply, const std::string& reason);
+
+}  // namespace graspd::test
