@@ -87,6 +87,12 @@ void log_ready(const Setup& setup) {
         setup.config.server.workers, setup.config.server.queue_capacity, log_value(names));
 }
 
+void log_received(const RequestIdentity& identity) {
+    if (!spdlog::should_log(spdlog::level::debug)) return;
+    spdlog::debug("event=received id={} client={}", log_value(identity.request_id),
+                  log_value(identity.client_id));
+}
+
 void log_answer(const Answer& answer) {
     const bool fault = answer.out.reply.status == PlanStatus::kInternalError || !answer.written;
     spdlog::log(fault ? spdlog::level::err : spdlog::level::info, "event=request {}",
@@ -118,11 +124,14 @@ int serve(const Setup& setup, const sigset_t& signals) {
         setup.config.server,
         {setup.grippers,
          [&](const PlanRequest& request, const StopQuery& stop_requested) {
+             spdlog::debug("event=planning id={}", log_value(request.request_id));
              return plan(request, setup.config.planner, stop_requested);
          },
          [&](const OutgoingReply& reply) { return port->write(reply); }, log_answer});
-    auto opened =
-        PlannerPort::open(setup.dds, [&](auto request) { service.handle(std::move(request)); });
+    auto opened = PlannerPort::open(setup.dds, [&](auto request) {
+        log_received(request->identity());
+        service.handle(std::move(request));
+    });
     if (!opened.ok()) return fail(opened.error());
     port = std::move(opened).value();
     service.start();
@@ -161,7 +170,7 @@ int main(int argc, char** argv) {
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // before any thread, so that all inherit it
-    std::signal(SIGPIPE, SIG_IGN);  // whoever reads the log may leave
+    std::signal(SIGPIPE, SIG_IGN);                  // whoever reads the log may leave
     const auto arguments = parse_daemon_arguments(argc, argv);
     if (const int* code = std::get_if<int>(&arguments)) return *code;
     try {
