@@ -27,6 +27,11 @@ int run_plan(const PlanArguments& plan, const std::string& config_file,
 /// Has a daemon plan over DDS. Only in builds with GRASPD_BUILD_DDS.
 int run_request(const PlanArguments& plan, const DdsArguments& dds, const OutputArguments& output);
 
+/// Prints the concavity of every vertex or point of a file, in the file's order.
+/// @param method  any_angle; tetrahedral is an error
+int run_concavity(const ObjectArguments& object, const std::string& method,
+                  const std::string& config_file, const OutputArguments& output);
+
 /// Lists the known grippers.
 int run_grippers(const OutputArguments& output);
 

@@ -16,6 +16,7 @@ struct Arguments {
     DdsArguments dds;
     std::string units;
     std::string config_file;
+    std::string method = "any_angle";  ///< of `concavity`
 };
 
 const std::vector<std::string> kMethods = {"any_angle", "tetrahedral"};
@@ -82,6 +83,18 @@ void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
 #ifdef GRASPD_WITH_DDS
     add_request(app, to, run);
 #endif
+    auto* concavity =
+        app.add_subcommand("concavity", "one line a vertex or point as stored: index value_m flag");
+    add_object(*concavity, to);
+    add_output(*concavity, to);
+    add_config(*concavity, to);
+    concavity->add_option("--method", to.method, "how it is computed")
+        ->check(CLI::IsMember(kMethods))
+        ->capture_default_str();
+    concavity->callback([&] {
+        run = [&] { return run_concavity(to.plan.object, to.method, to.config_file, to.output); };
+    });
+
     auto* grippers = app.add_subcommand("grippers", "list the known grippers");
     add_format(*grippers, to);
     grippers->callback([&] { run = [&] { return run_grippers(to.output); }; });
