@@ -8,6 +8,7 @@
 
 #include "graspd/config/load_config.hpp"
 #include "graspd/dds/dds_settings.hpp"
+#include "graspd/planner/plan_types.hpp"
 #include "support/child_process.hpp"
 #include "support/shapes.hpp"
 

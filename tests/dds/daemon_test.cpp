@@ -1,3 +1,5 @@
+#include <fastcdr/Cdr.h>
+#include <fastcdr/FastBuffer.h>
 #include <gmock/gmock.h>
 
 #include <csignal>

@@ -9,6 +9,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <stdexcept>
 
 namespace graspd::test {
 namespace {
@@ -26,8 +27,9 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
 
     std::array<int, 2> out{};
     std::array<int, 2> err{};
-    ASSERT_EQ(::pipe2(out.data(), O_CLOEXEC), 0);
-    ASSERT_EQ(::pipe2(err.data(), O_CLOEXEC), 0);
+    if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(err.data(), O_CLOEXEC) != 0) {
+        throw std::runtime_error("no pipes for " + program);
+    }
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
@@ -37,7 +39,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
     ::posix_spawn_file_actions_destroy(&actions);
     ::close(out[1]);
     ::close(err[1]);
-    ASSERT_EQ(failed, 0) << program;
+    if (failed != 0) throw std::runtime_error(program + " does not start");
     threads_.emplace_back([this, from = out[0]] { collect(from, output_); });
     threads_.emplace_back([this, from = err[0]] { collect(from, errors_); });
     threads_.emplace_back([this] { reap(); });

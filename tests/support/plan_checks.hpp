@@ -18,7 +18,7 @@ void expect_consistent(const PlanReply& reply, const PlanRequest& request,
                        const PlannerConfig& config);
 
 /// Reports when rejections and grasps do not add up to what the stages were given: every axis is
-/// chosen or counted, every pose of a chosen axis is returned or counted. Not for stopped plans.
+/// tried or counted, every pose of a tried axis is returned or counted. Not for stopped plans.
 void expect_counts_add_up(const PlanReply& reply, const PlannerConfig& config);
 
 /// Reports each difference in any field but the stages' times, to the last bit.

@@ -54,6 +54,7 @@ public:
         world_.plane = HalfSpace{normal, offset_m};
         return *this;
     }
+    const CollisionWorld& world() const { return world_; }
     MotionCheck check(const Eigen::Isometry3d& X_WG, double width_m,
                       const Gripper& gripper = parallel_85(),
                       const ManipulabilityConfig& config = kConfig) const {
@@ -211,6 +212,30 @@ TEST(CheckMotion, TooWideTellsByHowMuch) {
                 1e-12);
     EXPECT_NEAR(Scene().check(from_above(0, 0), 0.04, parallel_85(), one).open_width_m, 0.041,
                 1e-12);
+}
+
+// check_pose looks at the narrowest pre-shape, 2.5 beside each contact, and at nothing that moves.
+TEST(CheckPose, AsksAboutTheGraspPoseAlone) {
+    EXPECT_DOUBLE_EQ(least_preshape_margin_m(kConfig), 0.0025);
+    ManipulabilityConfig fine = kConfig;
+    fine.preshape_halvings = 10;
+    EXPECT_DOUBLE_EQ(least_preshape_margin_m(fine), 0.0005);  // the closing tolerance
+
+    const auto reason = [](const Scene& scene, const Eigen::Isometry3d& X_WG, double width_m) {
+        return check_pose(scene.world(), parallel_85(), X_WG, width_m, kConfig).reason();
+    };
+    const auto wall = [&](double depth_m, double gap_m, double tcp_z_m) {
+        return reason(channel(depth_m, gap_m), from_above(0.5 * gap_m + 0.005, tcp_z_m), 0.01);
+    };
+    EXPECT_EQ(wall(0.03, 0.0126, 0.02), "free");
+    EXPECT_EQ(wall(0.03, 0.0124, 0.02), "finger_hits_object");
+    EXPECT_EQ(wall(0.03, 0.03, 0.009), "finger_hits_object");
+    EXPECT_EQ(wall(0.056, 0.03, 0.02), "palm_hits_object");
+    const Eigen::Isometry3d X_WG = from_above(0, 0);
+    EXPECT_EQ(reason(Scene(), X_WG, 0.083), "too_wide");
+    // In the way of the closing finger, and of the palm on its way: not asked here.
+    EXPECT_EQ(reason(Scene().obstacle({0.001, 0.004, 0.004}, {0.0215, 0, 0}), X_WG, 0.04), "free");
+    EXPECT_EQ(reason(Scene().keep_out({0.005, 0.005, 0.005}, {0, 0, 0.15}), X_WG, 0.04), "free");
 }
 
 // The object hangs below: what the hand does about a plane under its tips and behind its palm.

@@ -63,7 +63,7 @@ TEST(GraspCandidates, TheTangentCircleFindsTheShortestWayAcross) {
     for (const double y : {0.01, 0.011}) {
         const auto found =
             candidates(neck(), {{{0, y}, 5}}, 0.05, {.widths = 2, .tangent_widths = true});
-        ASSERT_EQ(found.size(), 3U) << y;
+        ASSERT_GE(found.size(), 3U) << y;
         EXPECT_LT((found[0].right_W - Vector2d(0.02, y)).norm(), 1e-9) << y;
     }
 }

@@ -57,18 +57,28 @@ TEST(OppositeCandidates, CrossTheBlockWhereItIsNarrowEnough) {
 }
 
 // From the inside of a cup's wall, radius 36, to its outside, 40: the line ends at the wall's other
-// side although the cup goes on behind the cavity.
+// side although the cup goes on behind the cavity. Sides of the polygon lie inside the circles by
+// less than 0.1.
 TEST(OppositeCandidates, CrossAWall) {
     const TriangleMesh mesh = test::cup(0.04, 0.09, 0.004, 20000);
-    const auto found = candidates(
-        mesh, {sample({0.036, 0.0003, 0.05}, {-1, 0, 0}), sample({0, 0.04, 0.05}, {0, 1, 0})},
-        0.085);
-    ASSERT_EQ(found.size(), 2U);
-    for (const OppositeCandidate& candidate : found) {
-        EXPECT_NEAR((candidate.right_O - candidate.left_O).norm(), 0.004, 2e-5);
+    std::vector<SurfaceSample> samples;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        const Triangle& t = mesh.faces[f];
+        const Vector3d middle =
+            (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
+        const Vector3d normal = normal_of(mesh, f);
+        if (std::abs(middle.z() - 0.05) < 0.01 && std::abs(normal.z()) < 1e-9) {
+            samples.push_back(sample(middle, normal));
+        }
     }
-    EXPECT_GT(found[0].right_O.x(), found[0].left_O.x());
-    EXPECT_LT(found[1].right_O.y(), found[1].left_O.y());
+    ASSERT_GT(samples.size(), 100U);
+    const auto found = candidates(mesh, samples, 0.085);
+    ASSERT_EQ(found.size(), samples.size());
+    for (const OppositeCandidate& candidate : found) {
+        EXPECT_NEAR((candidate.right_O - candidate.left_O).norm(), 0.004, 1e-4);
+        EXPECT_NEAR(candidate.left_O.head<2>().norm() + candidate.right_O.head<2>().norm(), 0.076,
+                    2e-4);
+    }
 }
 
 // Sides that lean by a each: straight in from one side the line leans by 2 a at the other. One turn
