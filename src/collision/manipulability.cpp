@@ -78,6 +78,26 @@ MotionCheck check_width(const Gripper& gripper, double contact_width_m,
     return check;
 }
 
+/// Checks the pre-shapes from the widest to the narrowest until one is free.
+template <class Check>
+MotionCheck try_preshapes(Motion motion, Check&& check_at) {
+    const ManipulabilityConfig& config = motion.config;
+    MotionCheck check = check_width(motion.gripper, motion.contact_width_m, config);
+    if (!check.free()) return check;
+    double margin_m = config.preshape_margin_m;
+    for (std::uint32_t i = 0; i <= config.preshape_halvings; ++i, margin_m *= 0.5) {
+        const double gap_m = std::max(margin_m, least_preshape_margin_m(config));
+        const double open_m =
+            std::min(motion.gripper.max_width_m, motion.contact_width_m + 2.0 * gap_m);
+        if (open_m == motion.open_width_m) continue;
+        motion.open_width_m = open_m;
+        check = check_at(motion);
+        // A narrower hand stands no better with its palm.
+        if (check.free() || check.block == MotionBlock::kPalm) break;
+    }
+    return check;
+}
+
 }  // namespace
 
 std::string MotionCheck::reason() const {
@@ -102,30 +122,17 @@ double least_preshape_margin_m(const ManipulabilityConfig& config) {
 MotionCheck check_pose(const CollisionWorld& world, const Gripper& gripper,
                        const Eigen::Isometry3d& X_WG, double contact_width_m,
                        const ManipulabilityConfig& config) {
-    const MotionCheck width = check_width(gripper, contact_width_m, config);
-    if (!width.free()) return width;
-    const double open_m = contact_width_m + 2.0 * least_preshape_margin_m(config);
-    return check_end({world, gripper, X_WG, contact_width_m, open_m, config},
-                     gripper_parts(gripper, contact_width_m, open_m));
+    return try_preshapes(
+        {world, gripper, X_WG, contact_width_m, 0.0, config}, [](const Motion& motion) {
+            return check_end(
+                motion, gripper_parts(motion.gripper, motion.contact_width_m, motion.open_width_m));
+        });
 }
 
 MotionCheck check_motion(const CollisionWorld& world, const Gripper& gripper,
                          const Eigen::Isometry3d& X_WG, double contact_width_m,
                          const ManipulabilityConfig& config) {
-    MotionCheck check = check_width(gripper, contact_width_m, config);
-    if (!check.free()) return check;
-    double margin_m = config.preshape_margin_m;
-    double tried_m = -1.0;
-    for (std::uint32_t i = 0; i <= config.preshape_halvings; ++i, margin_m *= 0.5) {
-        const double gap_m = std::max(margin_m, least_preshape_margin_m(config));
-        const double open_m = std::min(gripper.max_width_m, contact_width_m + 2.0 * gap_m);
-        if (open_m == tried_m) continue;
-        tried_m = open_m;
-        check = check_all({world, gripper, X_WG, contact_width_m, open_m, config});
-        // A narrower hand stands no better with its palm.
-        if (check.free() || check.block == MotionBlock::kPalm) return check;
-    }
-    return check;
+    return try_preshapes({world, gripper, X_WG, contact_width_m, 0.0, config}, check_all);
 }
 
 std::vector<OrientedBox> swept_approach(const Gripper& gripper, const Eigen::Isometry3d& X_WG,

@@ -6,6 +6,8 @@ namespace graspd::planner_detail {
 namespace {
 
 constexpr const char* kRank = "grasp/rank_grasps";
+// With a demand on clearance so many grasps at least are measured, since the best may not meet it.
+constexpr std::uint32_t kLeastChoice = 64;
 constexpr const char* kClearance = "collision/gripper_collision";
 
 /// Ranks and keeps the best, in their order.
@@ -85,7 +87,8 @@ Result<std::vector<Grasp>> select_grasps(std::vector<GradedGrasp> grasps,
                                          const PlannerConfig& config, const Eigen::Isometry3d& X_FP,
                                          Rejections& rejections, StageLog& log) {
     const std::uint32_t wanted = request.options.max_grasps;
-    auto shortlist = best_of(grasps, 2 * wanted, config, rejections, log);
+    const std::uint32_t least = request.options.min_clearance_m > 0.0 ? kLeastChoice : 0;
+    auto shortlist = best_of(grasps, std::max(2 * wanted, least), config, rejections, log);
     if (!shortlist) return shortlist.error();
     std::vector<GradedGrasp> clear;
     const int done = log.run(kClearance, shortlist.value().size(), [&] {

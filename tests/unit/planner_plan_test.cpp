@@ -368,6 +368,8 @@ TEST(Plan, SlipsBelowTheFrictionItNeeds) {
     const double tangent = std::tan(20.0 * M_PI / 180.0);
     PlanRequest request =
         request_for(test::wedge(0.11 - 2.0 * 0.06 * tangent, 0.11, 0.11, 0.06, 2000));
+    // From below it closes along x or y, and along y the wedge is too wide.
+    request.approach_cones = {{Eigen::Vector3d::UnitZ(), 0.3}};
     request.options.friction = 0.38;
     const PlanReply held = planned(request);
     request.options.friction = 0.34;

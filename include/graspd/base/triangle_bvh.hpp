@@ -43,8 +43,8 @@ public:
     std::vector<Hit> all_hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                               double max_distance_m) const;
 
-    /// Faces that come within a distance of a box, and some that do not: those in tree boxes that no
-    /// axis of either box separates from it. Rising indices.
+    /// Faces that come within a distance of a box, and some that do not: those in tree boxes that
+    /// no axis of either box separates from it. Rising indices.
     std::vector<std::uint32_t> faces_near(const OrientedBox& box, double within_m) const;
 
     /// True when the point [m] lies inside the closed surface: majority of three ray directions,

@@ -60,8 +60,8 @@ MotionCheck check_motion(const CollisionWorld& world, const Gripper& gripper,
                          const Eigen::Isometry3d& X_WG, double contact_width_m,
                          const ManipulabilityConfig& config);
 
-/// Checks fingers and palm at the grasp pose alone, open by the narrowest pre-shape: what fails
-/// here fails check_motion() too, so a cheap first question.
+/// Checks fingers and palm at the grasp pose alone: what fails here fails check_motion() too, so a
+/// cheap first question.
 MotionCheck check_pose(const CollisionWorld& world, const Gripper& gripper,
                        const Eigen::Isometry3d& X_WG, double contact_width_m,
                        const ManipulabilityConfig& config);
