@@ -6,8 +6,6 @@ namespace graspd::planner_detail {
 namespace {
 
 constexpr const char* kRank = "grasp/rank_grasps";
-// With a demand on clearance so many grasps at least are measured, since the best may not meet it.
-constexpr std::uint32_t kLeastChoice = 64;
 constexpr const char* kClearance = "collision/gripper_collision";
 
 /// Ranks and keeps the best, in their order.
@@ -31,19 +29,25 @@ Result<std::vector<GradedGrasp>> best_of(const std::vector<GradedGrasp>& grasps,
     return kept;
 }
 
-/// Measures the clearance, and the score anew. @return whether the request is content with it
-bool measure_clearance(GradedGrasp& grasp, const CollisionWorld& world_P,
-                       const PlanRequest& request, const PlannerConfig& config,
-                       Rejections& rejections) {
+double clearance_m(const GradedGrasp& grasp, const CollisionWorld& world_P, double most_m,
+                   const PlannerConfig& config) {
     const auto boxes = swept_approach(*grasp.gripper, grasp.X_PG, grasp.width_m, grasp.open_width_m,
                                       config.manipulability.approach_distance_m);
-    const Clearance clearance = find_clearance(world_P, boxes, config.search.most_clearance_m);
-    grasp.evidence.clearance_m = clearance.distance_m;
-    grasp.score = score_grasp(grasp.evidence, config.score_grasp);
-    const double lacking_m = request.options.min_clearance_m - clearance.distance_m;
-    if (lacking_m <= 0.0) return true;
-    rejections.add_miss("clearance", grasp.X_PG, lacking_m, "m", config.search.most_clearance_m);
-    return false;
+    return find_clearance(world_P, boxes, most_m).distance_m;
+}
+
+/// Drops the grasps that come nearer to anything than the request allows. All of them are asked,
+/// before likes fall: one that is clear may stand far down in the ranking.
+void drop_nearer(std::vector<GradedGrasp>& grasps, const CollisionWorld& world_P, double least_m,
+                 const PlannerConfig& config, Rejections& rejections) {
+    if (!(least_m > 0.0)) return;
+    std::erase_if(grasps, [&](const GradedGrasp& grasp) {
+        const double lacking_m = least_m - clearance_m(grasp, world_P, least_m, config);
+        if (lacking_m <= 0.0) return false;
+        rejections.add_miss("clearance", grasp.X_PG, lacking_m, "m",
+                            config.search.most_clearance_m);
+        return true;
+    });
 }
 
 Contact placed(const Contact& contact_P, const Eigen::Isometry3d& X_FP) {
@@ -87,21 +91,23 @@ Result<std::vector<Grasp>> select_grasps(std::vector<GradedGrasp> grasps,
                                          const PlannerConfig& config, const Eigen::Isometry3d& X_FP,
                                          Rejections& rejections, StageLog& log) {
     const std::uint32_t wanted = request.options.max_grasps;
-    const std::uint32_t least = request.options.min_clearance_m > 0.0 ? kLeastChoice : 0;
-    auto shortlist = best_of(grasps, std::max(2 * wanted, least), config, rejections, log);
+    const std::size_t found = grasps.size();
+    log.run(kClearance, found, [&] {
+        drop_nearer(grasps, world_P, request.options.min_clearance_m, config, rejections);
+        return 0;
+    });
+    log.out(kClearance, grasps.size());
+    auto shortlist = best_of(grasps, 2 * wanted, config, rejections, log);
     if (!shortlist) return shortlist.error();
-    std::vector<GradedGrasp> clear;
-    const int done = log.run(kClearance, shortlist.value().size(), [&] {
+    const double most_m = std::max(config.search.most_clearance_m, request.options.min_clearance_m);
+    log.run(kClearance, 0, [&] {
         for (GradedGrasp& grasp : shortlist.value()) {
-            if (measure_clearance(grasp, world_P, request, config, rejections)) {
-                clear.push_back(std::move(grasp));
-            }
+            grasp.evidence.clearance_m = clearance_m(grasp, world_P, most_m, config);
+            grasp.score = score_grasp(grasp.evidence, config.score_grasp);
         }
         return 0;
     });
-    static_cast<void>(done);
-    log.out(kClearance, clear.size());
-    const auto best = best_of(clear, wanted, config, rejections, log);
+    const auto best = best_of(shortlist.value(), wanted, config, rejections, log);
     if (!best) return best.error();
     std::vector<Grasp> result;
     for (const GradedGrasp& grasp : best.value()) {

@@ -8,8 +8,8 @@ namespace graspd::planner_detail {
 
 /// Ranks what the searches found, measures the clearance of the best, and says it in F.
 ///
-/// Clearance is measured for twice as many grasps as are wanted, because it costs more than all
-/// the rest; those below the request's least clearance fall.
+/// Those below the request's least clearance fall first. How much clearance a grasp has is measured
+/// for twice as many as are wanted.
 /// @param grasps      of all grippers, scored without clearance
 /// @param world_P     what is around the gripper
 /// @return at most max_grasps grasps, best first; duplicates, surplus and clearance are counted
