@@ -192,16 +192,20 @@ TEST(PlanInvariance, HowFinelyTheShapeIsMeshedDoesNotMatter) {
         const char* name;
         std::vector<Matrix3d> symmetries;
         TriangleMesh (*mesh)(std::size_t faces);
+        // Whether few faces can carry the concavity: in the channel it has creases across them, so
+        // other boundaries are found, and with them other grasps that are as good.
+        bool linear = true;
     };
-    const Row rows[] = {{"box_hourglass", mirrors(true, true, true),
-                         [](std::size_t f) {
-                             return test::box_hourglass({0.06, 0.048, 0.01}, 0.02, 0.03, f);
-                         }},
-                        {"l_shape", mirrors(false, true, false),
-                         [](std::size_t f) { return test::l_shape(0.06, 0.04, 0.008, 0.05, f); }},
-                        {"u_channel", mirrors(true, true, false),
-                         [](std::size_t f) { return test::u_channel(0.03, 0.03, 0.008, 0.07, f); }},
-                        {"lopsided", mirrors(false, false, false), test::lopsided}};
+    const Row rows[] = {
+        {"box_hourglass", mirrors(true, true, true),
+         [](std::size_t f) {
+             return test::box_hourglass({0.06, 0.048, 0.01}, 0.02, 0.03, f);
+         }},
+        {"l_shape", mirrors(false, true, false),
+         [](std::size_t f) { return test::l_shape(0.06, 0.04, 0.008, 0.05, f); }},
+        {"u_channel", mirrors(true, true, false),
+         [](std::size_t f) { return test::u_channel(0.03, 0.03, 0.008, 0.07, f); }, false},
+        {"lopsided", mirrors(false, false, false), test::lopsided}};
     for (const Row& row : rows) {
         const PlanReply coarse = plan(request_for(row.mesh(200)), {});
         ASSERT_EQ(coarse.status, PlanStatus::kOk) << row.name << ": " << coarse.message;
@@ -210,6 +214,8 @@ TEST(PlanInvariance, HowFinelyTheShapeIsMeshedDoesNotMatter) {
             ASSERT_EQ(fine.status, PlanStatus::kOk) << row.name << ": " << fine.message;
             const Grasp& a = coarse.grasps[0];
             const Grasp& b = fine.grasps[0];
+            EXPECT_NEAR(a.score, b.score, 1e-3) << row.name << " " << faces;
+            if (!row.linear) continue;
             EXPECT_TRUE(same_up_to(row.symmetries, a, b))
                 << row.name << " " << faces << ": " << to_string(a.source) << " " << a.score << " "
                 << a.width_m << " at " << a.X_FG.translation().transpose() << " x "

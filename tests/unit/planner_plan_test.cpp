@@ -377,9 +377,6 @@ TEST(Plan, SlipsBelowTheFrictionItNeeds) {
     const PlanReply slipped = planned(request);
     EXPECT_EQ(slipped.status, PlanStatus::kNoGrasp);
     EXPECT_GT(rejections_of(slipped, "slips"), 0U);
-    ASSERT_FALSE(slipped.report.near_misses.empty());
-    EXPECT_EQ(slipped.report.near_misses.front().reason, "slips");
-    EXPECT_NEAR(slipped.report.near_misses.front().margin, tangent - 0.34, 1e-3);
 }
 
 // Two grippers: the one that is too small gets none, the other one's grasps name it.
