@@ -47,10 +47,10 @@ TEST(ScoreGrasp, TermsWorkedByHand) {
     EXPECT_NEAR(term(score, "bias"), 1.0, 1e-12);
     EXPECT_NEAR(term(score, "friction"), 0.0, 1e-12);
     EXPECT_NEAR(term(score, "balance"), -0.5, 1e-12);
-    EXPECT_NEAR(term(score, "lever"), -0.08175, 1e-12);
+    EXPECT_NEAR(term(score, "lever"), -0.327, 1e-12);
     EXPECT_NEAR(term(score, "contact"), 0.0, 1e-12);
     EXPECT_NEAR(term(score, "clearance"), 0.25, 1e-12);
-    EXPECT_NEAR(score.score, 1.0 / (1.0 + std::exp(-(1.0 - 0.5 - 0.08175 + 0.25))), 1e-12);
+    EXPECT_NEAR(score.score, 1.0 / (1.0 + std::exp(-(1.0 - 0.5 - 0.327 + 0.25))), 1e-12);
 }
 
 // The best possible: 1 + 2 + 0 + 0 + 2 + 0.5.
@@ -66,7 +66,7 @@ TEST(ScoreGrasp, EachWeightScalesItsTerm) {
     const ScoreGraspConfig doubled{.bias = 2.0,
                                    .friction_weight = 4.0,
                                    .balance_weight = 2.0,
-                                   .lever_weight = 2.0,
+                                   .lever_weight = 8.0,
                                    .contact_weight = 4.0,
                                    .clearance_weight = 1.0};
     GraspEvidence evidence = plain();

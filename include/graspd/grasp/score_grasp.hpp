@@ -18,7 +18,7 @@ struct ScoreGraspConfig {
     double bias = 1.0;                ///< log-odds of a grasp without merits or faults
     double friction_weight = 2.0;     ///< of the unused share of the friction coefficient
     double balance_weight = 1.0;      ///< per 45 degrees of the force-balance angle
-    double lever_weight = 1.0;        ///< per unit of weight torque over friction torque
+    double lever_weight = 4.0;        ///< per unit of weight torque over friction torque
     double contact_weight = 2.0;      ///< of the share of the pads that touches
     double clearance_weight = 0.5;    ///< of the clearance in units of clearance_scale_m
     double clearance_scale_m = 0.01;  ///< [m] more clearance adds no merit
