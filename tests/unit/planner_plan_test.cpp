@@ -377,6 +377,11 @@ TEST(Plan, SlipsBelowTheFrictionItNeeds) {
     const PlanReply slipped = planned(request);
     EXPECT_EQ(slipped.status, PlanStatus::kNoGrasp);
     EXPECT_GT(rejections_of(slipped, "slips"), 0U);
+    for (const NearMiss& miss : slipped.report.near_misses) {
+        if (miss.reason != "slips") continue;
+        EXPECT_NEAR(miss.margin, tangent - 0.34, 1e-3);
+        EXPECT_EQ(miss.unit, "1");
+    }
 }
 
 // Two grippers: the one that is too small gets none, the other one's grasps name it.
