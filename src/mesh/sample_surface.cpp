@@ -23,6 +23,7 @@ constexpr double kMaxRows = 1e8;
 // A spacing that grows does so in steps of this share, so that the rounding of the surface's area
 // cannot shift the grid.
 constexpr double kGrowthStep = 1e-4;
+constexpr double kOrderUnit = 1e-6;  // [1] of the spacing: far above rounding, far below detail
 
 PlanError error(PlanErrorCode code, const std::string& detail) {
     return {code, "sample_surface: " + detail};
@@ -219,7 +220,17 @@ void Scanner::emit(const Face& face, double u, double v) {
     samples_.push_back(sample);
 }
 
-bool sample_precedes(const SurfaceSample& a, const SurfaceSample& b) {
+/// By point, then by normal. What differs by rounding alone stands in the order of what differs in
+/// earnest, so that a turned object has its samples in the same order.
+bool sample_precedes(const SurfaceSample& a, const SurfaceSample& b, double spacing_m) {
+    const auto rounded = [](const Eigen::Vector3d& value, double unit) -> Eigen::Vector3d {
+        return (value.array() / (kOrderUnit * unit) + 0.5).floor();
+    };
+    const Eigen::Vector3d point_a = rounded(a.point, spacing_m);
+    const Eigen::Vector3d point_b = rounded(b.point, spacing_m);
+    if (point_a != point_b) return precedes(point_a, point_b);
+    const Eigen::Vector3d normal_a = rounded(a.normal, 1.0), normal_b = rounded(b.normal, 1.0);
+    if (normal_a != normal_b) return precedes(normal_a, normal_b);
     if (a.point != b.point) return precedes(a.point, b.point);
     if (a.normal != b.normal) return precedes(a.normal, b.normal);
     return a.concavity_m < b.concavity_m;
@@ -262,7 +273,9 @@ Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::span<const 
         return error(PlanErrorCode::kDegenerate, "no line of the grid meets the surface; spacing " +
                                                      std::to_string(surface.spacing_m) + " m");
     }
-    std::ranges::sort(surface.samples, sample_precedes);
+    std::ranges::sort(surface.samples, [&](const SurfaceSample& a, const SurfaceSample& b) {
+        return sample_precedes(a, b, surface.spacing_m);
+    });
     return surface;
 }
 

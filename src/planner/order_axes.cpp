@@ -8,6 +8,8 @@
 namespace graspd::planner_detail {
 namespace {
 
+constexpr double kSameBadness_rad = 1e-7;  // less is rounding: then the order of axes decides
+
 struct Touch {
     Eigen::Vector3d point_P, normal_P;
 };
@@ -91,7 +93,9 @@ std::vector<ClosingAxis> order_axes(std::vector<ClosingAxis> axes, const Judgeme
             probed.push_back(std::move(candidate));
         }
     }
-    std::ranges::stable_sort(probed, {}, &ProbedAxis::badness_rad);
+    std::ranges::stable_sort(probed, {}, [](const ProbedAxis& candidate) {
+        return std::floor(candidate.badness_rad / kSameBadness_rad + 0.5);
+    });
     std::vector<ClosingAxis> ordered;
     for (ProbedAxis& candidate : probed) ordered.push_back(std::move(candidate.axis));
     return ordered;

@@ -205,7 +205,27 @@ TEST(PlanInvariance, HowFinelyTheShapeIsMeshedDoesNotMatter) {
          [](std::size_t f) { return test::l_shape(0.06, 0.04, 0.008, 0.05, f); }},
         {"u_channel", mirrors(true, true, false),
          [](std::size_t f) { return test::u_channel(0.03, 0.03, 0.008, 0.07, f); }, false},
-        {"lopsided", mirrors(false, false, false), test::lopsided}};
+        {"lopsided", mirrors(false, false, false), test::lopsided},
+        {"box", mirrors(true, true, true),
+         [](std::size_t f) {
+             return test::box({0.04, 0.06, 0.09}, f);
+         }},
+        {"wedge", mirrors(true, true, false),
+         [](std::size_t f) { return test::wedge(0.03, 0.05, 0.06, 0.09, f); }},
+        {"oblique_prism",
+         {Matrix3d::Identity(), -Matrix3d::Identity(),
+          Eigen::DiagonalMatrix<double, 3>(1, -1, 1).toDenseMatrix(),
+          Eigen::DiagonalMatrix<double, 3>(-1, 1, -1).toDenseMatrix()},
+         [](std::size_t f) {
+             return test::oblique_prism({0.04, 0.06, 0.09}, 0.02, f);
+         }},
+        {"plate_with_hole", mirrors(true, true, true),
+         [](std::size_t f) {
+             return test::plate_with_hole({0.14, 0.10, 0.02}, 0.04, f);
+         }},
+        {"blind_hole_block", mirrors(true, true, false), [](std::size_t f) {
+             return test::blind_hole_block({0.07, 0.05, 0.06}, 0.03, 0.04, f);
+         }}};
     for (const Row& row : rows) {
         const PlanReply coarse = plan(request_for(row.mesh(200)), {});
         ASSERT_EQ(coarse.status, PlanStatus::kOk) << row.name << ": " << coarse.message;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "graspd/planner/planner.hpp"
 #include "support/plan_samples.hpp"
 #include "support/shapes.hpp"
 
@@ -166,6 +167,15 @@ void expect_counts_add_up(const PlanReply& reply, const PlannerConfig& config) {
     const std::uint64_t tried = find == nullptr ? 0 : find->in;
     EXPECT_EQ(axes + tried, order->in);
     EXPECT_EQ(poses, tried * config.search.approaches * config.search.insertions);
+}
+
+PlanReply planned(const PlanRequest& request, const PlannerConfig& config) {
+    PlanReply reply = plan(request, config);
+    expect_consistent(reply, request, config);
+    if (reply.status == PlanStatus::kOk || reply.status == PlanStatus::kNoGrasp) {
+        expect_counts_add_up(reply, config);
+    }
+    return reply;
 }
 
 void expect_identical(const PlanReply& a, const PlanReply& b) {

@@ -21,6 +21,9 @@ void expect_consistent(const PlanReply& reply, const PlanRequest& request,
 /// tried or counted, every pose of a tried axis is returned or counted. Not for stopped plans.
 void expect_counts_add_up(const PlanReply& reply, const PlannerConfig& config);
 
+/// Plans, and reports what is wrong by the two functions above.
+PlanReply planned(const PlanRequest& request, const PlannerConfig& config = {});
+
 /// Reports each difference in any field but the stages' times, to the last bit.
 void expect_identical(const PlanReply& a, const PlanReply& b);
 

@@ -109,6 +109,8 @@ TEST(OppositeCandidates, WhatNoHandReachesIsLeftOut) {
     SurfaceSample enclosed = sample({0.011, 0.03, 0.004}, {0, 1, 0});
     enclosed.concavity_m = std::numeric_limits<double>::infinity();
     EXPECT_TRUE(candidates(mesh, {enclosed}, 0.085).empty());
+    // A sample off the surface, 2 outside: its line enters the solid first and leaves it later.
+    EXPECT_TRUE(candidates(mesh, {sample({0.011, 0.032, 0.004}, {0, 1, 0})}, 0.085).empty());
     EXPECT_TRUE(candidates(mesh, {}, 0.085).empty());
 }
 

@@ -195,6 +195,21 @@ TEST(SampleSurface, TheOrderOfFacesAndVerticesDoesNotMatter) {
     }
 }
 
+// Nor does rounding: a box that was turned and turned back has its faces where they were but for
+// some 1e-16, and its samples in the same order.
+TEST(SampleSurface, RoundingDoesNotChangeTheOrder) {
+    const auto mesh = test::box({0.061, 0.040, 0.025}, 500);
+    const auto expected = samples_of(mesh);
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const Eigen::Isometry3d X = test::random_pose(seed);
+        const auto found = samples_of(test::moved(test::moved(mesh, X), X.inverse()));
+        ASSERT_EQ(found.size(), expected.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            ASSERT_LT((found[i].point - expected[i].point).norm(), 1e-9) << seed << " " << i;
+        }
+    }
+}
+
 // A linear field is interpolated exactly, a constant one to the last bit.
 TEST(SampleSurface, ALinearFieldIsKept) {
     const auto mesh = test::moved(test::sphere(0.04, 2000), test::random_pose(7));

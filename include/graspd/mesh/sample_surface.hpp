@@ -42,12 +42,12 @@ struct SurfaceSamples {
 /// @param value_m        per vertex: concavity [m], >= 0 or +infinity; interpolated linearly, and
 ///                       infinite where a corner of the face is
 /// @param finger_width_m [m] > 0
-/// @return samples in a total order (point, then normal) that depends neither on the order of faces
-///         nor of vertices; spacing_m grows above the configured one where area / spacing^2 would
-///         exceed max_samples; kInvalidInput for a parameter, length or value out of range, an
-///         empty mesh, an index out of range, a vertex that is not finite or lies beyond 1e7
-///         spacings, or a wrong count of values; kTooLarge when the faces span more than 1e8 rows
-///         of the grid; kDegenerate when no grid line meets the surface
+/// @return samples in a total order (point, then normal, each but for rounding) that depends
+///         neither on the order of faces nor of vertices; spacing_m grows above the configured one
+///         where area / spacing^2 would exceed max_samples; kInvalidInput for a parameter, length
+///         or value out of range, an empty mesh, an index out of range, a vertex that is not finite
+///         or lies beyond 1e7 spacings, or a wrong count of values; kTooLarge when the faces span
+///         more than 1e8 rows of the grid; kDegenerate when no grid line meets the surface
 /// Complexity O(F + rows + S log S). Pure, so safe to call from any thread.
 Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::span<const double> value_m,
                                       double finger_width_m, const SampleSurfaceConfig& config);
