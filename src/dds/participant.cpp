@@ -78,6 +78,9 @@ Result<std::unique_ptr<Participant>> Participant::join(const DdsSettings& settin
     if (settings.max_payload_bytes == 0) {
         return PlanError{PlanErrorCode::kInvalidInput, "max_payload_bytes = 0 must be positive"};
     }
+    // Fast DDS's factory writes its defaults unguarded whenever a participant is made.
+    static std::mutex one_at_a_time;
+    const std::scoped_lock lock(one_at_a_time);
     prepare_middleware();
     if (auto error = load_profiles(settings.profile_file)) return *std::move(error);
     fast::DomainParticipantQos qos;
