@@ -14,12 +14,6 @@ struct Seen {
     Eigen::Vector3d normal_G;
 };
 
-Eigen::Vector3d face_normal(const TriangleMesh& mesh, std::uint32_t face) {
-    const Triangle& t = mesh.faces[face];
-    const Eigen::Vector3d& a = mesh.vertices[t[0]];
-    return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).stableNormalized();
-}
-
 double middle_of_cell(std::uint32_t index, std::uint32_t count, double half_m) {
     return half_m * ((2.0 * index + 1.0) / count - 1.0);
 }

@@ -23,15 +23,8 @@ std::optional<Exit> leave(const TriangleMesh& mesh, const TriangleBvh& tree,
                           double opening_m) {
     const auto hit = tree.first_hit(from + kSkin_m * direction, direction, opening_m);
     if (!hit || hit->from_outside) return std::nullopt;
-    const Triangle& t = mesh.faces[hit->face];
-    const Eigen::Vector3d& a = mesh.vertices[t[0]];
-    const Eigen::Vector3d normal =
-        (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).stableNormalized();
-    return Exit{from + (hit->distance_m + kSkin_m) * direction, normal, hit->face};
-}
-
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
+    return Exit{from + (hit->distance_m + kSkin_m) * direction, face_normal(mesh, hit->face),
+                hit->face};
 }
 
 std::optional<OppositeCandidate> opposite_of(const SurfaceSample& sample, const TriangleMesh& mesh,
@@ -42,8 +35,8 @@ std::optional<OppositeCandidate> opposite_of(const SurfaceSample& sample, const 
     for (std::uint32_t turn = 0; turn <= config.turns; ++turn) {
         const auto exit = leave(mesh, tree, sample.point, direction, opening_m);
         if (!exit) break;
-        const double lean = std::max(angle_between(direction, -sample.normal),
-                                     angle_between(direction, exit->normal_O));
+        const double lean = std::max(angle_between_rad(direction, -sample.normal),
+                                     angle_between_rad(direction, exit->normal_O));
         if (!best || lean < best->lean_rad) {
             best = OppositeCandidate{sample.point, exit->point_O, lean, 0, exit->face};
         }

@@ -19,20 +19,14 @@ struct ProbedAxis {
     double badness_rad = 0.0;  ///< lean, and the lever in units of lever_weight
 };
 
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 /// What a finger that comes from `margin_m` before `place` meets, up to `reach_m` further on.
 std::optional<Touch> touch(const PreparedObject& object, const Eigen::Vector3d& place,
                            const Eigen::Vector3d& direction, double margin_m, double reach_m) {
     const auto hit =
         object.tree_P->first_hit(place - margin_m * direction, direction, margin_m + reach_m);
     if (!hit || !hit->from_outside) return std::nullopt;
-    const Triangle& t = object.mesh_P.faces[hit->face];
-    const auto& v = object.mesh_P.vertices;
-    const Eigen::Vector3d normal = (v[t[1]] - v[t[0]]).cross(v[t[2]] - v[t[0]]).stableNormalized();
-    return Touch{place + (hit->distance_m - margin_m) * direction, normal};
+    return Touch{place + (hit->distance_m - margin_m) * direction,
+                 face_normal(object.mesh_P, hit->face)};
 }
 
 /// The touch of a finger with the widest margin that begins outside the object.
@@ -60,8 +54,8 @@ const char* probe(ProbedAxis& probed, const Judgement& judgement) {
     const double width_m = closing.dot(right->point_P - left->point_P);
     if (width_m <= judgement.gripper.min_width_m) return "axis_no_contact";
     if (width_m >= judgement.gripper.max_width_m) return "axis_too_wide";
-    const double lean_rad =
-        std::max(angle_between(closing, -left->normal_P), angle_between(closing, right->normal_P));
+    const double lean_rad = std::max(angle_between_rad(closing, -left->normal_P),
+                                     angle_between_rad(closing, right->normal_P));
     if (lean_rad > config.opposite_candidates.max_lean_rad) return "axis_leans";
     axis.left_P = left->point_P;
     axis.right_P = right->point_P;
@@ -78,7 +72,7 @@ bool similar(const ClosingAxis& a, const ClosingAxis& b, const Judgement& judgem
     const Eigen::Vector3d middle_a = 0.5 * (a.left_P + a.right_P);
     const Eigen::Vector3d middle_b = 0.5 * (b.left_P + b.right_P);
     if ((middle_a - middle_b).norm() > near_m) return false;
-    const double angle = angle_between(a.right_P - a.left_P, b.right_P - b.left_P);
+    const double angle = angle_between_rad(a.right_P - a.left_P, b.right_P - b.left_P);
     return std::min(angle, std::numbers::pi - angle) <= same.same_angle_rad;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -47,5 +48,17 @@ struct Finding {
     double value = 0.0;  ///< the measured count or length [m]
     std::string detail;  ///< one sentence for people
 };
+
+/// Outward unit normal of a face; zero for one without area.
+inline Eigen::Vector3d face_normal(const TriangleMesh& mesh, std::uint32_t face) {
+    const Triangle& t = mesh.faces[face];
+    const Eigen::Vector3d& a = mesh.vertices[t[0]];
+    return (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).stableNormalized();
+}
+
+/// Angle between two vectors of any length [rad], in [0, pi].
+inline double angle_between_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 }  // namespace graspd
