@@ -1,23 +1,17 @@
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <limits>
 
+#include "graspd/base/lanes.hpp"
 #include "graspd/concavity/outer_hull.hpp"
 
 namespace graspd {
 namespace {
 
-// Boxes are padded by what single precision may round away (coordinates stay below 1), so that a
-// distance to a box never exceeds the true one.
+// Boxes and planes are padded by what single precision may round away (coordinates stay below 1),
+// so that nothing nearer than the best found is ever skipped.
 constexpr float kPad = 1e-6F;
-
-Eigen::Array4f to_units(const Eigen::Vector3d& point, const Eigen::Vector3d& middle,
-                        double diagonal_m) {
-    Eigen::Array4f unit = Eigen::Array4f::Zero();
-    unit.head<3>() = ((point - middle) / diagonal_m).cast<float>();
-    return unit;
-}
+constexpr float kNever = std::numeric_limits<float>::infinity();
 
 /// Squared distances from a point to the children's boxes; infinite for one that is not there.
 Eigen::Array4f squared_distances(const BoxTree::Node& node, const Eigen::Array4f& point) {
@@ -31,6 +25,38 @@ Eigen::Array4f squared_distances(const BoxTree::Node& node, const Eigen::Array4f
     return sum;
 }
 
+struct Waiting {
+    std::uint32_t child;
+    float distance;  ///< squared to the child's box, or along a ray
+};
+
+/// A walk's open ends, the nearest of each node's children on top.
+class WaitingList {
+public:
+    explicit WaitingList(std::uint32_t root) { stack_[top_++] = {root, 0.0F}; }
+
+    bool empty() const { return top_ == 0; }
+    Waiting take() { return stack_[--top_]; }
+
+    void push_children(const BoxTree::Node& node, unsigned lanes, const Eigen::Array4f& distances) {
+        assert(top_ + 4 <= stack_.size());
+        const std::size_t bottom = top_;
+        while (lanes != 0) {
+            const unsigned lane = take_lane(lanes);
+            const float here = distances[lane];
+            std::size_t place = top_++;
+            for (; place > bottom && stack_[place - 1].distance < here; --place) {
+                stack_[place] = stack_[place - 1];
+            }
+            stack_[place] = {node.child[lane], here};
+        }
+    }
+
+private:
+    std::array<Waiting, BoxTree::kStackDepth> stack_;
+    std::size_t top_ = 0;
+};
+
 }  // namespace
 
 HullPlaneTree::HullPlaneTree(const OuterHull& hull) : facets_(hull.facets) {
@@ -42,70 +68,125 @@ HullPlaneTree::HullPlaneTree(const OuterHull& hull) : facets_(hull.facets) {
     std::vector<Box4f> boxes;
     boxes.reserve(facets_.size());
     for (const HullFacet& facet : facets_) {
-        boxes.push_back({to_units(facet.box.min(), middle_, diagonal_m_) - kPad,
-                         to_units(facet.box.max(), middle_, diagonal_m_) + kPad});
+        boxes.push_back({to_units(facet.box.min()) - kPad, to_units(facet.box.max()) + kPad});
     }
     tree_ = build_box_tree(boxes);
+    if (BoxTree::is_leaf(tree_.root)) add_pack(tree_.root);
+    for (BoxTree::Node& node : tree_.nodes) {
+        for (std::uint32_t& child : node.child) {
+            if (BoxTree::is_leaf(child)) add_pack(child);
+        }
+    }
+    tree_.order.clear();
 }
 
-HullPlaneTree::Nearest HullPlaneTree::nearest(const Eigen::Vector3d& point) const {
-    struct Waiting {
-        std::uint32_t child;
-        float squared;
+/// Lays a leaf's planes side by side and lets the leaf name the pack.
+void HullPlaneTree::add_pack(std::uint32_t& leaf) {
+    const std::uint32_t first = BoxTree::leaf_first(leaf), count = BoxTree::leaf_count(leaf);
+    if (count == 0) return;
+    Pack pack;
+    pack.normal.fill(Eigen::Array4f::Zero());
+    pack.offset = Eigen::Array4f::Constant(kNever);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        pack.facet[k] = tree_.order[first + k];
+        const HullFacet& facet = facets_[pack.facet[k]];
+        const auto lane = static_cast<Eigen::Index>(k);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            pack.normal[axis][lane] =
+                static_cast<float>(facet.normal[static_cast<Eigen::Index>(axis)]);
+        }
+        pack.offset[lane] =
+            static_cast<float>((facet.offset_m - facet.normal.dot(middle_)) / diagonal_m_);
+    }
+    leaf = BoxTree::kLeafBit | static_cast<std::uint32_t>(packs_.size()) << 3 | count;
+    packs_.push_back(pack);
+}
+
+Eigen::Array4f HullPlaneTree::to_units(const Eigen::Vector3d& point) const {
+    Eigen::Array4f unit = Eigen::Array4f::Zero();
+    unit.head<3>() = ((point - middle_) / diagonal_m_).cast<float>();
+    return unit;
+}
+
+HullPlaneTree::Nearest HullPlaneTree::nearest(const Eigen::Vector3d& point,
+                                              std::uint32_t hint) const {
+    const Eigen::Array4f unit = to_units(point);
+    Nearest best{std::numeric_limits<double>::infinity(), hint};
+    float least = kNever;  // best distance in units, padded
+    const auto consider = [&](std::uint32_t index) {
+        const HullFacet& facet = facets_[index];
+        const double distance = std::max(0.0, facet.offset_m - facet.normal.dot(point));
+        if (distance > best.distance_m) return;
+        if (distance == best.distance_m && index > best.facet) return;
+        best = {distance, index};
+        least = static_cast<float>(distance / diagonal_m_) + kPad;
     };
-    const Eigen::Array4f unit = to_units(point, middle_, diagonal_m_);
-    Nearest best{std::numeric_limits<double>::infinity(), 0};
-    float least = std::numeric_limits<float>::infinity();  // squared best distance in units
-    std::array<Waiting, BoxTree::kStackDepth> stack;
-    std::size_t top = 0;
-    stack[top++] = {tree_.root, 0.0F};
-    while (top > 0) {
-        const Waiting item = stack[--top];
+    consider(hint);
+    WaitingList open(tree_.root);
+    while (!open.empty()) {
+        const Waiting item = open.take();
         // The nearest plane's foot lies on its facet, hence in the facet's box.
-        if (item.squared > least) continue;
+        if (item.distance > least * least) continue;
         if (BoxTree::is_leaf(item.child)) {
-            const std::uint32_t first = BoxTree::leaf_first(item.child);
-            for (std::uint32_t i = first; i < first + BoxTree::leaf_count(item.child); ++i) {
-                const std::uint32_t index = tree_.order[i];
-                const HullFacet& facet = facets_[index];
-                const double distance = std::max(0.0, facet.offset_m - facet.normal.dot(point));
-                if (distance > best.distance_m) continue;
-                if (distance == best.distance_m && index > best.facet) continue;
-                best = {distance, index};
-                const double units = distance / diagonal_m_;
-                least = static_cast<float>(units * units * (1.0 + 1e-6));
-            }
+            const Pack& pack = packs_[BoxTree::leaf_first(item.child)];
+            const Eigen::Array4f distance = pack.offset - pack.normal[0] * unit[0] -
+                                            pack.normal[1] * unit[1] - pack.normal[2] * unit[2];
+            unsigned lanes = lanes_not_negative(least + kPad - distance);
+            while (lanes != 0) consider(pack.facet[take_lane(lanes)]);
             continue;
         }
         const BoxTree::Node& node = tree_.nodes[item.child];
         const Eigen::Array4f squared = squared_distances(node, unit);
-        assert(top + 4 <= stack.size());
-        const std::size_t bottom = top;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const float here = squared[static_cast<Eigen::Index>(k)];
-            if (!(here <= least) || here == std::numeric_limits<float>::infinity()) continue;
-            std::size_t place = top++;  // the nearest child comes last, so it is the next one
-            for (; place > bottom && stack[place - 1].squared < here; --place) {
-                stack[place] = stack[place - 1];
-            }
-            stack[place] = {node.child[k], here};
-        }
+        open.push_children(node, lanes_not_negative(least * least - squared), squared);
     }
     return best;
 }
 
 std::uint32_t HullPlaneTree::exit(const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& direction) const {
+    const Eigen::Array4f start = to_units(origin);
+    const Eigen::Vector3d unit = direction.normalized();
+    std::array<float, 3> inverse{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        constexpr double kLeast = 1e-30;  // infinity times 0 is no number
+        const double slope = unit[static_cast<Eigen::Index>(axis)];
+        inverse[axis] = static_cast<float>(std::abs(slope) > kLeast ? 1.0 / slope : 1.0 / kLeast);
+    }
     double nearest_m = std::numeric_limits<double>::infinity();
+    float reach = kNever;  // nearest in units, padded
     std::uint32_t best = 0;
-    for (std::uint32_t index = 0; index < facets_.size(); ++index) {
-        const double slope = facets_[index].normal.dot(direction);
-        if (!(slope > 0.0)) continue;
-        const double distance_m =
-            (facets_[index].offset_m - facets_[index].normal.dot(origin)) / slope;
-        if (distance_m >= nearest_m) continue;
-        nearest_m = distance_m;
-        best = index;
+    WaitingList open(tree_.root);
+    while (!open.empty()) {
+        const Waiting item = open.take();
+        // Where the ray leaves the hull is a point of that facet, hence in the facet's box.
+        if (item.distance > reach) continue;
+        if (BoxTree::is_leaf(item.child)) {
+            const Pack& pack = packs_[BoxTree::leaf_first(item.child)];
+            for (std::uint32_t k = 0; k < BoxTree::leaf_count(item.child); ++k) {
+                const HullFacet& facet = facets_[pack.facet[k]];
+                const double slope = facet.normal.dot(unit);
+                if (!(slope > 0.0)) continue;
+                const double there_m = (facet.offset_m - facet.normal.dot(origin)) / slope;
+                const bool nearer =
+                    there_m < nearest_m || (there_m == nearest_m && pack.facet[k] < best);
+                if (!nearer) continue;
+                nearest_m = there_m;
+                best = pack.facet[k];
+                reach = static_cast<float>(there_m / diagonal_m_) + kPad;
+            }
+            continue;
+        }
+        const BoxTree::Node& node = tree_.nodes[item.child];
+        Eigen::Array4f enter = Eigen::Array4f::Zero();
+        Eigen::Array4f leave = Eigen::Array4f::Constant(reach);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto at = start[static_cast<Eigen::Index>(axis)];
+            const Eigen::Array4f low = (node.bound[axis][0] - at) * inverse[axis];
+            const Eigen::Array4f high = (node.bound[axis][1] - at) * inverse[axis];
+            enter = enter.max(low.min(high));
+            leave = leave.min(low.max(high));
+        }
+        open.push_children(node, lanes_not_negative(leave + kPad - enter), enter);
     }
     return best;
 }

@@ -1,24 +1,35 @@
 #include "path_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <utility>
+
+#include "graspd/base/lanes.hpp"
+#include "graspd/base/parallel.hpp"
+#include "slide_bends.hpp"
 
 namespace graspd::concavity_detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxPull = 64;  // bends of one string; a longer one is pulled by later relaxations
+constexpr std::size_t kBlock = 128;  // vertices that one thread takes at a time
 
 // Where no mesh edge leads on, rays look around: from so many vertices of every region without a
-// way out, from so many bends, in so many directions, and so many rays in all.
+// way out, in so many directions, and so many rays in all.
 constexpr std::size_t kProbedVertices = 16;
-constexpr std::size_t kProbedBends = 256;
 constexpr int kProbeDirections = 32;
 constexpr std::uint32_t kMostProbes = 8192;
 constexpr int kProbeRounds = 4;  // a region may be reached through another one only
+
+// Bent ways are shortened by looking around from so many vertices, each in a few of the directions,
+// and by so many bends and planes that most ways use, of which each vertex tries the best few.
+constexpr std::size_t kLookouts = 1024;
+constexpr int kLookoutRays = 4;
+constexpr std::size_t kPoolBends = 512, kPoolPlanes = 64, kPoolTries = 8;
+constexpr int kShortenRounds = 3;
 
 /// Directions spread evenly over the sphere: equal steps in height, golden angles between them.
 Eigen::Vector3d probe_direction(int index) {
@@ -30,31 +41,17 @@ Eigen::Vector3d probe_direction(int index) {
 
 }  // namespace
 
-PathSearch::PathSearch(const TriangleMesh& mesh, const OuterHull& hull, const TriangleBvh& bvh,
-                       const ConcavityConfig& config)
-    : mesh_(mesh),
-      bvh_(bvh),
-      config_(config),
-      planes_(hull),
-      neighbours_(mesh),
-      diagonal_m_(mesh_diagonal_m(mesh)),
-      offset_m_(config.start_offset * diagonal_m_),
-      normals_(angle_weighted_normals(mesh)) {
-    const std::size_t count = mesh.vertices.size();
-    start_.reserve(count);
-    for (std::size_t v = 0; v < count; ++v) {
-        start_.push_back(mesh.vertices[v] + offset_m_ * normals_[v]);
-    }
+PathSearch::PathSearch(const PathGround& ground, const HullPlaneTree& planes,
+                       const TriangleBvh& bvh, const ConcavityConfig& config)
+    : ground_(ground), planes_(planes), bvh_(bvh), config_(config) {
+    const std::size_t count = ground.mesh.vertices.size();
     field_.value_m.assign(count, kInfinity);
     field_.flag.assign(count, ConcavityFlag::kEnclosed);
     field_.parent.assign(count, ConcavityField::kNoParent);
     failed_.assign(count * config.failed_memory, ConcavityField::kNoParent);
     relaxations_.assign(count, 0);
-}
-
-void PathSearch::mark_unreferenced() {
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-        if (!neighbours_.of(v).empty()) continue;
+    for (std::uint32_t v = 0; v < count; ++v) {
+        if (!ground.neighbours.of(v).empty()) continue;
         field_.flag[v] = ConcavityFlag::kUnreferenced;
         field_.value_m[v] = std::numeric_limits<double>::quiet_NaN();
     }
@@ -63,42 +60,44 @@ void PathSearch::mark_unreferenced() {
 /// Steps 1 and 2: the distance to the nearest hull plane is a lower bound; where the perpendicular
 /// is free it is the answer.
 void PathSearch::prove_direct() {
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-        if (!unreached(v)) continue;
-        const HullPlaneTree::Nearest nearest = planes_.nearest(mesh_.vertices[v]);
-        const auto parent = -1 - static_cast<std::int32_t>(nearest.facet);
-        if (!sees(v, parent)) continue;
-        field_.value_m[v] = nearest.distance_m;
-        field_.parent[v] = parent;
-        field_.flag[v] = ConcavityFlag::kExact;
-    }
+    for_blocks(ground_.order.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        std::uint32_t hint = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t v = ground_.order[i];
+            if (!unreached(v)) continue;
+            const auto nearest = planes_.nearest(ground_.mesh.vertices[v], hint);
+            hint = nearest.facet;
+            const auto parent = -1 - static_cast<std::int32_t>(nearest.facet);
+            if (!sees(v, parent)) continue;
+            field_.value_m[v] = nearest.distance_m;
+            field_.parent[v] = parent;
+            field_.flag[v] = ConcavityFlag::kExact;
+        }
+    });
 }
 
 /// Length of v's way out through a parent (a bend or a hull facet), seen or not.
 double PathSearch::length_through(std::uint32_t v, std::int32_t parent) const {
-    if (parent >= 0) {
-        return (mesh_.vertices[v] - mesh_.vertices[parent]).norm() + field_.value_m[parent];
-    }
+    const std::vector<Eigen::Vector3d>& vertices = ground_.mesh.vertices;
+    if (parent >= 0) return (vertices[v] - vertices[parent]).norm() + field_.value_m[parent];
     const HullFacet& facet = planes_.facet(static_cast<std::uint32_t>(-1 - parent));
-    return std::max(0.0, facet.offset_m - facet.normal.dot(mesh_.vertices[v]));
+    return std::max(0.0, facet.offset_m - facet.normal.dot(vertices[v]));
 }
 
 bool PathSearch::sees(std::uint32_t v, std::int32_t parent) const {
-    const Eigen::Vector3d& from = start_[v];
-    if (parent >= 0) return !bvh_.segment_blocked(from, start_[parent]);
+    const Eigen::Vector3d& from = ground_.lifted[v];
+    if (parent >= 0) return !bvh_.segment_blocked(from, ground_.lifted[parent]);
     const HullFacet& facet = planes_.facet(static_cast<std::uint32_t>(-1 - parent));
-    const double depth_m = facet.offset_m - facet.normal.dot(mesh_.vertices[v]);
-    if (depth_m <= offset_m_ / kOffsetOverRayTolerance) return true;  // v lies on the hull
-    // One offset beyond the plane: the object's own sides often lie in it, and a way out of the
-    // inside, through the solid, ends on one of them.
-    const double length_m = facet.offset_m - facet.normal.dot(from) + offset_m_;
-    return !bvh_.segment_blocked(from, from + length_m * facet.normal);
+    const double depth_m = facet.offset_m - facet.normal.dot(ground_.mesh.vertices[v]);
+    if (depth_m <= ground_.offset_m / kOffsetOverRayTolerance) return true;  // v is on the hull
+    return !bvh_.segment_blocked(from, beyond_plane(facet, from, ground_.offset_m));
 }
 
-bool PathSearch::try_parent(std::uint32_t v, std::int32_t parent) {
+/// Takes a parent into `way` when that is shorter and free.
+bool PathSearch::consider(std::uint32_t v, std::int32_t parent, Way& way) {
     if (parent == ConcavityField::kNoParent || parent == static_cast<std::int32_t>(v)) return false;
     const double length = length_through(v, parent);
-    if (!(length < field_.value_m[v] * (1.0 - config_.min_gain))) return false;
+    if (!(length < way.value_m * (1.0 - config_.min_gain))) return false;
     const auto ring = failed_.begin() + static_cast<std::ptrdiff_t>(v) * config_.failed_memory;
     const auto ring_end = ring + config_.failed_memory;
     if (std::find(ring, ring_end, parent) != ring_end) return false;
@@ -109,44 +108,52 @@ bool PathSearch::try_parent(std::uint32_t v, std::int32_t parent) {
         }
         return false;
     }
-    field_.value_m[v] = length;
-    field_.parent[v] = parent;
-    field_.flag[v] = ConcavityFlag::kPath;
+    way = {length, parent};
     return true;
 }
 
 /// Tries the mesh neighbours of a bend.
-bool PathSearch::try_beside(std::uint32_t v, std::int32_t bend) {
+bool PathSearch::consider_beside(std::uint32_t v, std::int32_t bend, Way& way) {
     if (bend < 0) return false;
     return std::ranges::any_of(
-        neighbours_.of(static_cast<std::uint32_t>(bend)), [&](std::uint32_t u) {
-            return finished(u) && try_parent(v, static_cast<std::int32_t>(u));
+        ground_.neighbours.of(static_cast<std::uint32_t>(bend)), [&](std::uint32_t u) {
+            return finished(u) && consider(v, static_cast<std::int32_t>(u), way);
         });
 }
 
-/// Straightens v's way out: skip bends that are not needed, then slide the bend to its neighbours.
-void PathSearch::pull(std::uint32_t v) {
+/// Pulls a string tight: skips bends that are not needed, then slides the bend to its neighbours.
+void PathSearch::straighten(std::uint32_t v, Way& way) {
     for (int round = 0; round < kMaxPull; ++round) {
-        const std::int32_t bend = field_.parent[v];
+        const std::int32_t bend = way.parent;
         if (bend < 0) return;
-        if (!try_parent(v, field_.parent[bend]) && !try_beside(v, bend)) return;
+        if (!consider(v, field_.parent[bend], way) && !consider_beside(v, bend, way)) return;
     }
 }
 
-bool PathSearch::relax(std::uint32_t from, std::uint32_t to) {
+/// Tries what another vertex's way goes through, then that vertex.
+bool PathSearch::consider_over(std::uint32_t v, std::uint32_t from, Way& way) {
     const std::int32_t parent = field_.parent[from];
-    const bool improved = try_parent(to, parent) || try_beside(to, parent) ||
-                          try_parent(to, static_cast<std::int32_t>(from));
-    if (improved) pull(to);
+    const bool improved = consider(v, parent, way) || consider_beside(v, parent, way) ||
+                          consider(v, static_cast<std::int32_t>(from), way);
+    if (improved) straighten(v, way);
     return improved;
+}
+
+bool PathSearch::accept(std::uint32_t v, const Way& way) {
+    if (!(way.value_m < field_.value_m[v])) return false;
+    field_.value_m[v] = way.value_m;
+    field_.parent[v] = way.parent;
+    field_.flag[v] = ConcavityFlag::kPath;
+    queue_.push({way.value_m, v});
+    return true;
 }
 
 /// Step 3: Dijkstra from the proven vertices that border others.
 void PathSearch::propagate_inwards() {
-    for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
+    for (std::uint32_t v = 0; v < field_.flag.size(); ++v) {
         if (!finished(v)) continue;
-        const bool borders =
-            std::ranges::any_of(neighbours_.of(v), [&](std::uint32_t u) { return unreached(u); });
+        const bool borders = std::ranges::any_of(ground_.neighbours.of(v),
+                                                 [&](std::uint32_t u) { return unreached(u); });
         if (borders) queue_.push({field_.value_m[v], v});
     }
     propagate();
@@ -159,10 +166,11 @@ void PathSearch::propagate() {
         const QueueItem item = queue_.top();
         queue_.pop();
         if (item.value_m > field_.value_m[item.vertex]) continue;
-        for (const std::uint32_t to : neighbours_.of(item.vertex)) {
+        for (const std::uint32_t to : ground_.neighbours.of(item.vertex)) {
             if (field_.flag[to] == ConcavityFlag::kExact) continue;
             if (++relaxations_[to] > config_.max_relaxations_per_vertex) continue;
-            if (relax(item.vertex, to)) queue_.push({field_.value_m[to], to});
+            Way way = known(to);
+            if (consider_over(to, item.vertex, way)) accept(to, way);
         }
     }
 }
@@ -173,7 +181,7 @@ std::vector<std::uint32_t> PathSearch::unreached_region(std::uint32_t seed,
     std::vector<std::uint32_t> region{seed};
     seen[seed] = 1;
     for (std::size_t i = 0; i < region.size(); ++i) {
-        for (const std::uint32_t u : neighbours_.of(region[i])) {
+        for (const std::uint32_t u : ground_.neighbours.of(region[i])) {
             if (seen[u] || !unreached(u)) continue;
             seen[u] = 1;
             region.push_back(u);
@@ -182,22 +190,22 @@ std::vector<std::uint32_t> PathSearch::unreached_region(std::uint32_t seed,
     return region;
 }
 
-/// Looks around from v: a free ray proposes the plane it leaves the hull by, another one what it
-/// meets.
-bool PathSearch::probe(std::uint32_t v) {
+/// Looks from v in `count` of the directions that lead off the surface: a free ray proposes the
+/// plane it leaves the hull by, another one what it meets.
+bool PathSearch::probe(std::uint32_t v, int first, int count, int step, Way& way) {
     bool improved = false;
-    for (int k = 0; k < kProbeDirections && probes_ < kMostProbes; ++k) {
-        const Eigen::Vector3d direction = probe_direction(k);
-        if (direction.dot(normals_[v]) <= 0.0) continue;
-        ++probes_;
-        const auto hit = bvh_.first_hit(start_[v], direction, diagonal_m_);
+    for (int k = 0; k < kProbeDirections && count > 0; ++k) {
+        const Eigen::Vector3d direction = probe_direction((first + k * step) % kProbeDirections);
+        if (direction.dot(ground_.normals[v]) <= 0.0) continue;
+        --count;
+        const auto hit = bvh_.first_hit(ground_.lifted[v], direction, ground_.diagonal_m);
         if (!hit) {
-            const auto facet = planes_.exit(start_[v], direction);
-            improved |= try_parent(v, -1 - static_cast<std::int32_t>(facet));
+            const auto facet = planes_.exit(ground_.lifted[v], direction);
+            improved |= consider(v, -1 - static_cast<std::int32_t>(facet), way);
             continue;
         }
-        for (const std::uint32_t u : mesh_.faces[hit->face]) {
-            if (finished(u)) improved |= relax(u, v);
+        for (const std::uint32_t u : ground_.mesh.faces[hit->face]) {
+            if (finished(u)) improved |= consider_over(v, u, way);
         }
     }
     return improved;
@@ -206,32 +214,16 @@ bool PathSearch::probe(std::uint32_t v) {
 /// A piece within another one's hollow, or a part cut off by another, is not reached along mesh
 /// edges. @return whether some way out was found, so that propagate() has something to do
 bool PathSearch::probe_unreached() {
-    std::vector<char> seen(mesh_.vertices.size(), 0);
+    std::vector<char> seen(field_.flag.size(), 0);
     for (std::uint32_t seed = 0; seed < seen.size(); ++seed) {
         if (seen[seed] || !unreached(seed)) continue;
         const std::vector<std::uint32_t> region = unreached_region(seed, seen);
         const std::size_t step = 1 + region.size() / kProbedVertices;
-        for (std::size_t i = 0; i < region.size(); i += step) {
-            if (probe(region[i])) queue_.push({field_.value_m[region[i]], region[i]});
+        for (std::size_t i = 0; i < region.size() && probes_ < kMostProbes; i += step) {
+            Way way = known(region[i]);
+            probes_ += kProbeDirections;
+            if (probe(region[i], 0, kProbeDirections, 1, way)) accept(region[i], way);
         }
-    }
-    return !queue_.empty();
-}
-
-/// The next bend may lie across the void, where no mesh edge leads. Many ways share a bend, so a
-/// look around from the bends alone shortens most of them.
-bool PathSearch::probe_bends() {
-    std::vector<std::uint32_t> bends;
-    for (const std::int32_t parent : field_.parent) {
-        if (parent >= 0) bends.push_back(static_cast<std::uint32_t>(parent));
-    }
-    std::ranges::sort(bends);
-    bends.erase(std::unique(bends.begin(), bends.end()), bends.end());
-    std::mt19937 random;  // seeded by default, so the same choice every time
-    for (std::size_t i = 0; i < bends.size() && i < kProbedBends; ++i) {
-        std::swap(bends[i], bends[i + random() % (bends.size() - i)]);
-        if (field_.flag[bends[i]] != ConcavityFlag::kPath) continue;
-        if (probe(bends[i])) queue_.push({field_.value_m[bends[i]], bends[i]});
     }
     return !queue_.empty();
 }
@@ -240,8 +232,139 @@ void PathSearch::reach_what_no_edge_reaches() {
     for (int round = 0; round < kProbeRounds && probe_unreached(); ++round) propagate();
 }
 
+/// What most ways go through, bends in single precision and side by side.
+struct PathSearch::Pool {
+    std::vector<std::int32_t> bends, planes;
+    std::vector<std::array<Eigen::Array4f, 4>> quads;  ///< x, y, z [m from the base] and value [m]
+    Eigen::Vector3d base = Eigen::Vector3d::Zero();
+    float margin_m = 0.0F;  ///< that single precision stays within
+};
+
+/// Vertices whose value is not proven, near ones together.
+std::vector<std::uint32_t> PathSearch::bent_vertices() const {
+    std::vector<std::uint32_t> bent;
+    for (const std::uint32_t v : ground_.order) {
+        if (field_.flag[v] == ConcavityFlag::kPath) bent.push_back(v);
+    }
+    return bent;
+}
+
+PathSearch::Pool PathSearch::most_used() const {
+    std::vector<std::pair<std::int32_t, std::int32_t>> uses;  // minus the count, the parent
+    std::vector<std::int32_t> parents;
+    for (std::size_t v = 0; v < field_.parent.size(); ++v) {
+        if (field_.flag[v] == ConcavityFlag::kPath) parents.push_back(field_.parent[v]);
+    }
+    std::ranges::sort(parents);
+    for (std::size_t i = 0; i < parents.size();) {
+        const auto end = std::upper_bound(parents.begin() + static_cast<std::ptrdiff_t>(i),
+                                          parents.end(), parents[i]) -
+                         parents.begin();
+        uses.emplace_back(static_cast<std::int32_t>(i) - static_cast<std::int32_t>(end),
+                          parents[i]);
+        i = static_cast<std::size_t>(end);
+    }
+    std::ranges::sort(uses);
+    Pool pool;
+    for (const auto& [count, parent] : uses) {
+        if (parent >= 0 && pool.bends.size() < kPoolBends) pool.bends.push_back(parent);
+        if (parent < 0 && pool.planes.size() < kPoolPlanes) pool.planes.push_back(parent);
+    }
+    pool.base = ground_.mesh.vertices[ground_.order.front()];
+    pool.margin_m = static_cast<float>(4e-7 * ground_.diagonal_m);
+    pool.quads.resize((pool.bends.size() + 3) / 4);
+    for (std::size_t i = 0; i < 4 * pool.quads.size(); ++i) {
+        auto& quad = pool.quads[i / 4];
+        const auto lane = static_cast<Eigen::Index>(i % 4);
+        const bool is_there = i < pool.bends.size();
+        const std::int32_t bend = pool.bends[is_there ? i : 0];
+        const Eigen::Vector3d at = ground_.mesh.vertices[bend] - pool.base;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            quad[axis][lane] = static_cast<float>(at[static_cast<Eigen::Index>(axis)]);
+        }
+        quad[3][lane] = static_cast<float>(is_there ? field_.value_m[bend] : kInfinity);
+    }
+    return pool;
+}
+
+/// Tries the most used bends and planes, of those that promise a gain the shortest first.
+void PathSearch::consider_pool(std::uint32_t v, const Pool& pool, Way& way) {
+    std::array<std::pair<double, std::int32_t>, kPoolTries> best;
+    std::size_t count = 0;
+    const auto note = [&](std::int32_t parent) {
+        const std::pair<double, std::int32_t> entry{length_through(v, parent), parent};
+        if (!(entry.first < way.value_m * (1.0 - config_.min_gain))) return;
+        if (count == kPoolTries && !(entry < best[count - 1])) return;
+        std::size_t place = count < kPoolTries ? count++ : count - 1;
+        for (; place > 0 && entry < best[place - 1]; --place) best[place] = best[place - 1];
+        best[place] = entry;
+    };
+    for (const std::int32_t plane : pool.planes) note(plane);
+    const Eigen::Array3f at = (ground_.mesh.vertices[v] - pool.base).cast<float>().array();
+    for (std::size_t q = 0; q < pool.quads.size(); ++q) {
+        const auto& quad = pool.quads[q];
+        const Eigen::Array4f x = quad[0] - at[0], y = quad[1] - at[1], z = quad[2] - at[2];
+        const float limit = static_cast<float>(way.value_m) + pool.margin_m;
+        const Eigen::Array4f length = (x * x + y * y + z * z).sqrt() + quad[3];
+        unsigned lanes = lanes_not_negative(limit - length);
+        while (lanes != 0) note(pool.bends[4 * q + take_lane(lanes)]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!consider(v, best[i].second, way)) continue;
+        straighten(v, way);
+        return;
+    }
+}
+
+/// Searches a better way for each vertex on its own, then takes what was found.
+bool PathSearch::improve(
+    const std::vector<std::uint32_t>& vertices,
+    const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search) {
+    std::vector<Way> ways(vertices.size());
+    for_blocks(vertices.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            ways[i] = known(vertices[i]);
+            search(vertices[i], i, ways[i]);
+        }
+    });
+    bool improved = false;
+    for (std::size_t i = 0; i < vertices.size(); ++i) improved |= accept(vertices[i], ways[i]);
+    return improved;
+}
+
+/// Step 4: the next bend may lie across the void, where no mesh edge leads.
 void PathSearch::shorten_across_the_void() {
-    if (probe_bends()) propagate();
+    const std::vector<std::uint32_t> bent = bent_vertices();
+    if (bent.empty()) return;
+    const std::size_t stride = 1 + bent.size() / kLookouts;
+    for (int round = 0; round < kShortenRounds; ++round) {
+        const Pool pool = most_used();
+        const bool improved =
+            improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {
+                for (const std::uint32_t u : ground_.neighbours.of(v)) {
+                    if (finished(u) && consider(v, field_.parent[u], way)) straighten(v, way);
+                }
+                consider_pool(v, pool, way);
+                if (place % stride == static_cast<std::size_t>(round) % stride) {
+                    probe(v, static_cast<int>(place), kLookoutRays, 13, way);
+                }
+            });
+        if (!improved) return;
+        propagate();
+    }
+}
+
+/// Step 5: bends slide along mesh edges.
+void PathSearch::slide_bends() {
+    const std::vector<std::uint32_t> bent = bent_vertices();
+    const BendSlider slider(ground_, planes_, bvh_, field_);
+    std::vector<SlidWay> ways(bent.size());
+    for_blocks(bent.size(), kBlock, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) ways[i] = slider.slide(bent[i]);
+    });
+    for (std::size_t i = 0; i < bent.size(); ++i) {
+        if (ways[i].value_m < field_.value_m[bent[i]]) take_slid(ways[i], bent[i], field_);
+    }
 }
 
 ConcavityField PathSearch::take() {
@@ -255,11 +378,12 @@ ConcavityField PathSearch::take() {
                                                       : a < b;
     });
     for (const std::uint32_t v : order) {
-        field_.value_m[v] = std::min(field_.value_m[v], length_through(v, field_.parent[v]));
+        field_.value_m[v] = std::min(field_.value_m[v], length_of_way(field_, ground_, planes_, v));
     }
     for (const double value : field_.value_m) {
         if (std::isfinite(value)) field_.largest_m = std::max(field_.largest_m, value);
     }
+    field_.lifted = ground_.lifted;
     return std::move(field_);
 }
 

@@ -8,21 +8,23 @@
 #include <vector>
 
 #include "graspd/concavity/shortest_path_concavity.hpp"
-#include "vertex_fans.hpp"
+#include "path_ground.hpp"
 
 namespace graspd::concavity_detail {
 
-/// The working state of shortest_path_concavity, which shows the order of the steps.
+/// The working state of shortest_path_concavity, which shows the order of the steps. Steps that run
+/// on several threads read the ways found so far and write new ones aside, so their result does not
+/// depend on the threads.
 class PathSearch {
 public:
-    PathSearch(const TriangleMesh& mesh, const OuterHull& hull, const TriangleBvh& bvh,
+    PathSearch(const PathGround& ground, const HullPlaneTree& planes, const TriangleBvh& bvh,
                const ConcavityConfig& config);
 
-    void mark_unreferenced();
     void prove_direct();
     void propagate_inwards();
     void reach_what_no_edge_reaches();
     void shorten_across_the_void();
+    void slide_bends();
     ConcavityField take();
 
 private:
@@ -33,31 +35,41 @@ private:
             return value_m != other.value_m ? value_m > other.value_m : vertex > other.vertex;
         }
     };
+    /// A way out of some vertex that is better than what was known.
+    struct Way {
+        double value_m;
+        std::int32_t parent;
+    };
+    struct Pool;
 
     bool finished(std::uint32_t v) const { return std::isfinite(field_.value_m[v]); }
     bool unreached(std::uint32_t v) const { return field_.flag[v] == ConcavityFlag::kEnclosed; }
+    Way known(std::uint32_t v) const { return {field_.value_m[v], field_.parent[v]}; }
 
-    void propagate();
-    bool probe_unreached();
-    bool probe_bends();
     double length_through(std::uint32_t v, std::int32_t parent) const;
     bool sees(std::uint32_t v, std::int32_t parent) const;
-    bool try_parent(std::uint32_t v, std::int32_t parent);
-    bool relax(std::uint32_t from, std::uint32_t to);
-    bool try_beside(std::uint32_t v, std::int32_t bend);
-    void pull(std::uint32_t v);
-    std::vector<std::uint32_t> unreached_region(std::uint32_t seed, std::vector<char>& seen) const;
-    bool probe(std::uint32_t v);
+    bool consider(std::uint32_t v, std::int32_t parent, Way& way);
+    bool consider_beside(std::uint32_t v, std::int32_t bend, Way& way);
+    void straighten(std::uint32_t v, Way& way);
+    bool consider_over(std::uint32_t v, std::uint32_t from, Way& way);
+    bool accept(std::uint32_t v, const Way& way);
+    void propagate();
 
-    const TriangleMesh& mesh_;
+    std::vector<std::uint32_t> unreached_region(std::uint32_t seed, std::vector<char>& seen) const;
+    bool probe(std::uint32_t v, int first, int count, int step, Way& way);
+    bool probe_unreached();
+
+    std::vector<std::uint32_t> bent_vertices() const;
+    Pool most_used() const;
+    void consider_pool(std::uint32_t v, const Pool& pool, Way& way);
+    bool improve(const std::vector<std::uint32_t>& vertices,
+                 const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search);
+
+    const PathGround& ground_;
+    const HullPlaneTree& planes_;
     const TriangleBvh& bvh_;
     const ConcavityConfig& config_;
-    HullPlaneTree planes_;
-    VertexNeighbours neighbours_;
-    double diagonal_m_, offset_m_;
-    std::vector<Eigen::Vector3d> normals_;
-    std::vector<Eigen::Vector3d> start_;  ///< vertices lifted off the surface: where paths run
-    std::vector<std::int32_t> failed_;    ///< ring of hidden parents per vertex
+    std::vector<std::int32_t> failed_;  ///< ring of hidden parents per vertex
     std::vector<std::uint32_t> relaxations_;
     std::uint32_t probes_ = 0;
     std::priority_queue<QueueItem, std::vector<QueueItem>, std::greater<>> queue_;

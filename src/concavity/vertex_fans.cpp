@@ -3,34 +3,38 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace graspd::concavity_detail {
+namespace {
+
+/// Angle whose tangent is y / x, for y >= 0, to 1e-5 rad.
+double quick_angle(double y, double x) {
+    const double wide = std::abs(x);
+    const double t = std::min(y, wide) / std::max(y, wide);
+    const double t2 = t * t;
+    const double series =
+        0.9998660 + t2 * (-0.3302995 + t2 * (0.1801410 + t2 * (-0.0851330 + t2 * 0.0208351)));
+    const double low = t * series;  // in [0, pi / 4]
+    const double first = y > wide ? 0.5 * std::numbers::pi - low : low;
+    return x < 0.0 ? std::numbers::pi - first : first;
+}
+
+}  // namespace
 
 VertexNeighbours::VertexNeighbours(const TriangleMesh& mesh) : start_(mesh.vertices.size() + 1, 0) {
-    // Every face notes both other corners at each of its own; then rows are sorted and closed up.
+    // Rows grow from their ends, so that `start_` needs no copy: first each row's end, last its
+    // start.
     for (const Triangle& face : mesh.faces) {
-        for (const std::uint32_t v : face) start_[v + 1] += 2;
+        for (const std::uint32_t v : face) ++start_[v];
     }
-    for (std::size_t v = 0; v + 1 < start_.size(); ++v) start_[v + 1] += start_[v];
-    neighbour_.resize(start_.back());
-    std::vector<std::uint32_t> place(start_.begin(), start_.end() - 1);
-    for (const Triangle& face : mesh.faces) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            neighbour_[place[face[k]]++] = face[(k + 1) % 3];
-            neighbour_[place[face[k]]++] = face[(k + 2) % 3];
-        }
+    std::uint32_t end = 0;
+    for (std::uint32_t& row : start_) row = end += row;
+    neighbour_.resize(end);
+    for (std::size_t f = mesh.faces.size(); f-- > 0;) {
+        const Triangle& face = mesh.faces[f];
+        for (std::size_t k = 0; k < 3; ++k) neighbour_[--start_[face[k]]] = face[(k + 1) % 3];
     }
-    auto write = neighbour_.begin();
-    std::uint32_t first = 0;
-    for (std::size_t v = 0; v + 1 < start_.size(); ++v) {
-        const auto begin = neighbour_.begin() + first, end = neighbour_.begin() + start_[v + 1];
-        first = start_[v + 1];
-        std::sort(begin, end);
-        start_[v] = static_cast<std::uint32_t>(write - neighbour_.begin());
-        write = std::copy(begin, std::unique(begin, end), write);
-    }
-    start_.back() = static_cast<std::uint32_t>(write - neighbour_.begin());
-    neighbour_.erase(write, neighbour_.end());
 }
 
 std::vector<Eigen::Vector3d> angle_weighted_normals(const TriangleMesh& mesh) {
@@ -39,14 +43,15 @@ std::vector<Eigen::Vector3d> angle_weighted_normals(const TriangleMesh& mesh) {
         const Eigen::Vector3d& a = mesh.vertices[face[0]];
         const Eigen::Vector3d ab = mesh.vertices[face[1]] - a;
         const Eigen::Vector3d ac = mesh.vertices[face[2]] - a;
-        const Eigen::Vector3d bc = ac - ab;
         const Eigen::Vector3d cross = ab.cross(ac);
         const double twice_area = cross.norm();
         if (!(twice_area > 0.0)) continue;
         const Eigen::Vector3d normal = cross / twice_area;
-        normals[face[0]] += std::atan2(twice_area, ab.dot(ac)) * normal;
-        normals[face[1]] += std::atan2(twice_area, -ab.dot(bc)) * normal;
-        normals[face[2]] += std::atan2(twice_area, ac.dot(bc)) * normal;
+        const double at_a = quick_angle(twice_area, ab.dot(ac));
+        const double at_b = quick_angle(twice_area, -ab.dot(ac - ab));
+        normals[face[0]] += at_a * normal;
+        normals[face[1]] += at_b * normal;
+        normals[face[2]] += (std::numbers::pi - at_a - at_b) * normal;
     }
     for (Eigen::Vector3d& normal : normals) normal.stableNormalize();
     return normals;

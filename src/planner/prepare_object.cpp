@@ -5,10 +5,6 @@
 namespace graspd::planner_detail {
 namespace {
 
-double ray_tolerance_m(const TriangleMesh& mesh, const ConcavityConfig& config) {
-    return mesh_diagonal_m(mesh) * config.start_offset / kOffsetOverRayTolerance;
-}
-
 /// The mesh of the request, or the one that its cloud's points span.
 Result<TriangleMesh> surface_of(const std::variant<TriangleMesh, PointCloud>& object,
                                 const PlannerConfig& config, StageLog& log,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -16,6 +17,8 @@ namespace graspd {
 /// Watertight by an absolute tolerance: a ray within `tolerance_m` of a triangle's edge hits it, so
 /// nothing leaks between neighbours however small they are. (A tolerance relative to the triangle
 /// leaks above 20k faces; see docs/architecture.md.) Rays in a triangle's own plane do not hit it.
+/// Boxes and, four at a time, triangles are sorted out in single precision with a margin for all its
+/// roundings; what is left is judged in double precision.
 /// Immutable after construction, so safe to query from any thread.
 class TriangleBvh {
 public:
@@ -52,22 +55,30 @@ public:
     bool contains(const Eigen::Vector3d& point) const;
 
 private:
-    struct Corner {
-        Eigen::Vector3d origin, edge1, edge2;
-        double tolerance = 0.0;  ///< barycentric, = tolerance_m / least height
-        std::uint32_t face = 0;
+    /// The up to four triangles of a leaf side by side, in the tree's units.
+    struct Pack {
+        std::array<Eigen::Array4f, 3> origin, edge1, edge2;
+        Eigen::Array4f longest;  ///< edge; below zero where there is no triangle
+        std::uint32_t first = 0, count = 0;
     };
     struct Ray;
     struct Vicinity;
 
-    template <class Visit>
+    void add_pack(std::uint32_t& leaf);
+    static unsigned near_lanes(const Ray& ray, const Pack& pack, float reach, float margin);
+    bool meets(const Ray& ray, std::uint32_t place, double reach, Hit& hit) const;
+    template <bool kNearestFirst, class Visit>
     void traverse(const Ray& ray, double& reach, Visit&& visit) const;
 
     double tolerance_m_ = 0.0;
-    Eigen::AlignedBox3d bounds_;   ///< [m] of the triangles, padded by the tolerance
-    double diagonal_m_ = 0.0;      ///< [m] of bounds_
-    BoxTree tree_;                 ///< in units of the diagonal, relative to the middle of bounds_
-    std::vector<Corner> corners_;  ///< in the order of the leaves
+    Eigen::AlignedBox3d bounds_;             ///< [m] of the triangles, padded by the tolerance
+    double diagonal_m_ = 0.0;                ///< [m] of bounds_
+    BoxTree tree_;                           ///< in units of the diagonal, from bounds_' middle
+    std::vector<Eigen::Vector3d> vertices_;  ///< [m]
+    std::vector<Triangle> faces_;            ///< in the order of the packs
+    std::vector<std::uint32_t> number_;      ///< in the mesh, of the face at a place
+    float margin_ = 0.0F;                    ///< that the tolerance and all roundings stay within
+    std::vector<Pack> packs_;                ///< the leaves name places here
 };
 
 }  // namespace graspd

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,7 +35,8 @@ struct OuterHull {
 Result<OuterHull> outer_hull(std::span<const Eigen::Vector3d> points);
 
 /// Answers "how far is it from a point inside to the nearest hull plane" by a box tree over the
-/// facets. For a point inside this is the exact distance to the hull's surface.
+/// facets. For a point inside this is the exact distance to the hull's surface. Immutable after
+/// construction, so safe to query from any thread.
 class HullPlaneTree {
 public:
     struct Nearest {
@@ -45,17 +47,29 @@ public:
     explicit HullPlaneTree(const OuterHull& hull);
 
     /// The facet whose plane is nearest; ties by the lower index.
-    Nearest nearest(const Eigen::Vector3d& point) const;
+    /// @param hint  a facet that may be near, such as a neighbouring point's: it only saves time
+    Nearest nearest(const Eigen::Vector3d& point, std::uint32_t hint = 0) const;
 
-    /// The facet by whose plane a ray from inside leaves the hull. Cost O(facets).
+    /// The facet by whose plane a ray from inside leaves the hull; ties by the lower index, 0 where
+    /// rounding leaves none.
     std::uint32_t exit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
     const HullFacet& facet(std::uint32_t index) const { return facets_[index]; }
 
 private:
+    /// The up to four facets of a leaf side by side, in the tree's units.
+    struct Pack {
+        std::array<Eigen::Array4f, 3> normal;
+        Eigen::Array4f offset;  ///< infinite where there is no facet
+        std::array<std::uint32_t, 4> facet{};
+    };
+    void add_pack(std::uint32_t& leaf);
+    Eigen::Array4f to_units(const Eigen::Vector3d& point) const;
+
     Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< [m] of all facets' boxes
     double diagonal_m_ = 0.0;                           ///< [m] of all facets' boxes
     BoxTree tree_;                                      ///< in units of the diagonal from middle_
+    std::vector<Pack> packs_;                           ///< the leaves name places here
     std::vector<HullFacet> facets_;
 };
 

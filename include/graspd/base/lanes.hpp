@@ -1,0 +1,33 @@
+#pragma once
+
+#include <bit>
+
+#include <Eigen/Core>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+namespace graspd {
+
+/// Bit k is set where lane k has no sign: where it is zero or more.
+inline unsigned lanes_not_negative(const Eigen::Array4f& lanes) {
+#if defined(__SSE__)
+    return ~static_cast<unsigned>(_mm_movemask_ps(_mm_loadu_ps(lanes.data()))) & 0xfu;
+#else
+    unsigned mask = 0;
+    for (unsigned k = 0; k < 4; ++k) {
+        mask |= (1u - (std::bit_cast<std::uint32_t>(lanes[static_cast<Eigen::Index>(k)]) >> 31)) << k;
+    }
+    return mask;
+#endif
+}
+
+/// Takes the lowest lane out of a mask that is not zero.
+inline unsigned take_lane(unsigned& mask) {
+    const auto lane = static_cast<unsigned>(std::countr_zero(mask));
+    mask &= mask - 1;
+    return lane;
+}
+
+}  // namespace graspd

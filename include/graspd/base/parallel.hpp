@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace graspd {
+
+/// Calls work(first, last) for [0, count) cut into blocks of `block` (the last may be shorter), on
+/// as many threads as there are. The blocks do not depend on the number of threads, so work that
+/// writes to its own block alone gives the same bytes for one and many.
+void for_blocks(std::size_t count, std::size_t block,
+                const std::function<void(std::size_t first, std::size_t last)>& work);
+
+/// Runs two pieces of work side by side and returns when both are done.
+void run_both(const std::function<void()>& one, const std::function<void()>& other);
+
+}  // namespace graspd

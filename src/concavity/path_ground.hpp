@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "graspd/concavity/shortest_path_concavity.hpp"
+#include "vertex_fans.hpp"
+
+namespace graspd::concavity_detail {
+
+/// What ways out run over: the mesh with its neighbourhoods, and where rays start. Independent of
+/// the hull and of the tree.
+struct PathGround {
+    PathGround(const TriangleMesh& mesh, const ConcavityConfig& config);
+
+    const TriangleMesh& mesh;
+    double diagonal_m, offset_m;  ///< [m] the lift is offset_m
+    VertexNeighbours neighbours;
+    std::vector<Eigen::Vector3d> normals;
+    std::vector<Eigen::Vector3d> lifted;  ///< [m] vertices off the surface: where rays start
+    std::vector<std::uint32_t> order;     ///< vertices so that the next is often near
+};
+
+/// Where a ray from a lifted point straight to a hull facet's plane has to end: one lift beyond it.
+/// The object's own sides often lie in the plane, and a way out of the inside, through the solid,
+/// ends on one of them.
+inline Eigen::Vector3d beyond_plane(const HullFacet& facet, const Eigen::Vector3d& from,
+                                    double offset_m) {
+    return from + (facet.offset_m - facet.normal.dot(from) + offset_m) * facet.normal;
+}
+
+}  // namespace graspd::concavity_detail

@@ -1,0 +1,220 @@
+#include "slide_bends.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "graspd/base/triangle_bvh.hpp"
+
+namespace graspd::concavity_detail {
+namespace {
+
+constexpr std::size_t kMostBends = 6;   // of a way that slide; what follows stays
+constexpr int kEdgeRounds = 8;          // a bend that reaches an edge's end goes on along another
+constexpr int kSettleRounds = 64;       // of bends in turn, until none moves
+constexpr double kSettled = 1e-9;       // [1] of the edge
+constexpr double kLeastGain = 1e-6;     // [1] of the value; less is not worth its rays
+
+/// Where the way a, p, c is shortest for p = base + s * along on a line, along of unit length:
+/// c turned about the line into a's plane, on the other side, is seen from a in a straight line.
+double shortest_crossing(const Eigen::Vector3d& base, const Eigen::Vector3d& along,
+                         const Eigen::Vector3d& a, const Eigen::Vector3d& c) {
+    const Eigen::Vector3d to_a = a - base, to_c = c - base;
+    const double at_a = to_a.dot(along), at_c = to_c.dot(along);
+    const double far_a = (to_a - at_a * along).norm(), far_c = (to_c - at_c * along).norm();
+    const double sum = far_a + far_c;
+    return sum > 0.0 ? (at_a * far_c + at_c * far_a) / sum : 0.5 * (at_a + at_c);
+}
+
+/// The same for the way from a over p straight to a plane of this unit normal.
+double shortest_to_plane(const Eigen::Vector3d& base, const Eigen::Vector3d& along,
+                         const Eigen::Vector3d& a, const Eigen::Vector3d& normal) {
+    const Eigen::Vector3d to_a = a - base;
+    const double at_a = to_a.dot(along);
+    const double far_a = (to_a - at_a * along).norm();
+    const double slope = along.dot(normal);
+    const double rest = 1.0 - slope * slope;
+    constexpr double kPerpendicular = 1e-12;
+    if (rest < kPerpendicular) return slope > 0.0 ? std::numeric_limits<double>::infinity()
+                                                  : -std::numeric_limits<double>::infinity();
+    return at_a + far_a * slope / std::sqrt(rest);
+}
+
+}  // namespace
+
+double BendSlider::Chain::length_m() const {
+    double length = 0.0;
+    Eigen::Vector3d at = start;
+    for (const Bend& bend : bends) {
+        length += (bend.point - at).norm();
+        at = bend.point;
+    }
+    if (facet != nullptr) return length + std::max(0.0, facet->offset_m - facet->normal.dot(at));
+    return length + (end - at).norm() + end_value_m;
+}
+
+const Eigen::Vector3d& BendSlider::Chain::before(std::size_t i) const {
+    return i == 0 ? start : bends[i - 1].point;
+}
+
+BendSlider::BendSlider(const PathGround& ground, const HullPlaneTree& planes,
+                       const TriangleBvh& bvh, const ConcavityField& field)
+    : ground_(ground), planes_(planes), bvh_(bvh), field_(field) {}
+
+BendSlider::Chain BendSlider::chain_of(std::uint32_t vertex) const {
+    const std::vector<Eigen::Vector3d>& vertices = ground_.mesh.vertices;
+    Chain chain;
+    chain.start = vertices[vertex];
+    chain.parent = field_.parent[vertex];
+    while (chain.parent >= 0 && chain.bends.size() < kMostBends) {
+        const auto bend = static_cast<std::uint32_t>(chain.parent);
+        chain.bends.push_back({bend, bend, 0.0, vertices[bend]});
+        chain.parent = field_.parent[bend];
+    }
+    if (chain.parent >= 0) {
+        chain.end = vertices[static_cast<std::size_t>(chain.parent)];
+        chain.end_value_m = field_.value_m[static_cast<std::size_t>(chain.parent)];
+    } else {
+        chain.facet = &planes_.facet(static_cast<std::uint32_t>(-1 - chain.parent));
+    }
+    return chain;
+}
+
+/// For each bend at a vertex the mesh edge along which the way shortens fastest.
+void BendSlider::choose_edges(Chain& chain) const {
+    for (std::size_t i = 0; i < chain.bends.size(); ++i) {
+        Bend& bend = chain.bends[i];
+        if (bend.share > 0.0 && bend.share < 1.0) continue;
+        if (bend.share >= 1.0) bend.from = bend.to;
+        bend.share = 0.0;
+        bend.to = bend.from;
+        const bool is_last = i + 1 == chain.bends.size();
+        Eigen::Vector3d pull = (chain.before(i) - bend.point).stableNormalized();
+        if (!is_last || chain.facet == nullptr) {
+            const Eigen::Vector3d& next = is_last ? chain.end : chain.bends[i + 1].point;
+            pull += (next - bend.point).stableNormalized();
+        } else {
+            pull += chain.facet->normal;
+        }
+        constexpr double kTaut = 1e-7;  // sine of the angle that counts as none
+        double best = kTaut;
+        for (const std::uint32_t u : ground_.neighbours.of(bend.from)) {
+            const double gain =
+                pull.dot((ground_.mesh.vertices[u] - bend.point).stableNormalized());
+            if (gain <= best) continue;
+            best = gain;
+            bend.to = u;
+        }
+    }
+}
+
+/// Moves one bend to where the way is shortest with the others held.
+void BendSlider::place(Chain& chain, std::size_t i) const {
+    Bend& bend = chain.bends[i];
+    const Eigen::Vector3d& base = ground_.mesh.vertices[bend.from];
+    const Eigen::Vector3d edge = ground_.mesh.vertices[bend.to] - base;
+    const double length_m = edge.norm();
+    const Eigen::Vector3d along = edge / length_m;
+    const bool is_last = i + 1 == chain.bends.size();
+    double at_m = 0.0;
+    if (is_last && chain.facet != nullptr) {
+        at_m = shortest_to_plane(base, along, chain.before(i), chain.facet->normal);
+    } else {
+        const Eigen::Vector3d& next = is_last ? chain.end : chain.bends[i + 1].point;
+        at_m = shortest_crossing(base, along, chain.before(i), next);
+    }
+    bend.share = std::clamp(at_m / length_m, 0.0, 1.0);
+    bend.point = base + bend.share * edge;
+}
+
+/// Moves the bends in turn until none moves: the length is convex, so they settle where all of them
+/// together make it least. @return whether one stands at the far end of its edge, or moved at all
+bool BendSlider::settle(Chain& chain) const {
+    bool at_end = false;
+    for (int round = 0; round < kSettleRounds; ++round) {
+        double moved = 0.0;
+        at_end = false;
+        for (std::size_t i = 0; i < chain.bends.size(); ++i) {
+            Bend& bend = chain.bends[i];
+            if (bend.from == bend.to) continue;
+            const double before = bend.share;
+            place(chain, i);
+            moved = std::max(moved, std::abs(bend.share - before));
+            at_end |= bend.share >= 1.0;
+        }
+        if (moved <= kSettled) break;
+    }
+    return at_end;
+}
+
+Eigen::Vector3d BendSlider::lifted(const Bend& bend) const {
+    if (bend.share <= 0.0) return ground_.lifted[bend.from];
+    if (bend.share >= 1.0) return ground_.lifted[bend.to];
+    const Eigen::Vector3d normal = (1.0 - bend.share) * ground_.normals[bend.from] +
+                                   bend.share * ground_.normals[bend.to];
+    return bend.point + ground_.offset_m * normal.stableNormalized();
+}
+
+bool BendSlider::is_free(std::uint32_t vertex, const Chain& chain) const {
+    Eigen::Vector3d at = ground_.lifted[vertex];
+    for (const Bend& bend : chain.bends) {
+        const Eigen::Vector3d next = lifted(bend);
+        if (bvh_.segment_blocked(at, next)) return false;
+        at = next;
+    }
+    if (chain.facet != nullptr) {
+        return !bvh_.segment_blocked(at, beyond_plane(*chain.facet, at, ground_.offset_m));
+    }
+    return !bvh_.segment_blocked(at, ground_.lifted[static_cast<std::size_t>(chain.parent)]);
+}
+
+SlidWay BendSlider::slide(std::uint32_t vertex) const {
+    SlidWay way{std::numeric_limits<double>::infinity(), {}, 0};
+    if (field_.parent[vertex] < 0) return way;
+    Chain chain = chain_of(vertex);
+    const double known_m = field_.value_m[vertex];
+    for (int round = 0; round < kEdgeRounds; ++round) {
+        choose_edges(chain);
+        if (!settle(chain)) break;
+    }
+    const double length_m = chain.length_m();
+    if (!(length_m < known_m * (1.0 - kLeastGain)) || !is_free(vertex, chain)) return way;
+    way.value_m = length_m;
+    way.parent = chain.parent;
+    for (const Bend& bend : chain.bends) way.bends.push_back({bend.point, lifted(bend), 0});
+    return way;
+}
+
+void take_slid(const SlidWay& way, std::uint32_t vertex, ConcavityField& field) {
+    const auto first =
+        static_cast<std::int32_t>(field.value_m.size() + field.edge_bends.size());
+    for (std::size_t i = 0; i < way.bends.size(); ++i) {
+        field.edge_bends.push_back(way.bends[i]);
+        field.edge_bends.back().parent = i + 1 == way.bends.size()
+                                             ? way.parent
+                                             : first + 1 + static_cast<std::int32_t>(i);
+    }
+    field.value_m[vertex] = way.value_m;
+    field.parent[vertex] = first;
+}
+
+double length_of_way(const ConcavityField& field, const PathGround& ground,
+                     const HullPlaneTree& planes, std::uint32_t vertex) {
+    const auto vertices = static_cast<std::int32_t>(field.value_m.size());
+    Eigen::Vector3d at = ground.mesh.vertices[vertex];
+    std::int32_t parent = field.parent[vertex];
+    double length_m = 0.0;
+    while (parent >= vertices) {
+        const EdgeBend& bend = field.edge_bends[static_cast<std::size_t>(parent - vertices)];
+        length_m += (bend.point - at).norm();
+        at = bend.point;
+        parent = bend.parent;
+    }
+    if (parent >= 0) {
+        return length_m + (ground.mesh.vertices[static_cast<std::size_t>(parent)] - at).norm() +
+               field.value_m[static_cast<std::size_t>(parent)];
+    }
+    const HullFacet& facet = planes.facet(static_cast<std::uint32_t>(-1 - parent));
+    return length_m + std::max(0.0, facet.offset_m - facet.normal.dot(at));
+}
+
+}  // namespace graspd::concavity_detail
