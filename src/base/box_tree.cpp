@@ -12,9 +12,9 @@ namespace graspd {
 namespace {
 
 constexpr int kBins = 12;
-constexpr std::uint32_t kClusterSize = 8;      // things that the surface area heuristic moves as one
-constexpr int kSahDepth = 32;                  // below it clusters are halved by count
-constexpr int kMostHalvings = 28;              // of 2^28 things
+constexpr std::uint32_t kClusterSize = 8;  // things that the surface area heuristic moves as one
+constexpr int kSahDepth = 32;              // below it clusters are halved by count
+constexpr int kMostHalvings = 28;          // of 2^28 things
 static_assert(BoxTree::kStackDepth >=
               3 * (kSahDepth + kMostHalvings + CurvePlace::kBits + kMostHalvings) / 2 + 4);
 

@@ -23,8 +23,12 @@ public:
 
 private:
 #if defined(__SANITIZE_THREAD__)
-    static void release(char* at) { __tsan_release(at); }
-    static void acquire(char* at) { __tsan_acquire(at); }
+    static void release(char* at) {
+        __tsan_release(at);
+    }
+    static void acquire(char* at) {
+        __tsan_acquire(at);
+    }
 #else
     static void release(char*) {}
     static void acquire(char*) {}

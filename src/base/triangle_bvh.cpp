@@ -68,7 +68,8 @@ struct TriangleBvh::Ray {
         meets_bounds = enter <= leave * (1.0 + 1e-12);
         if (!meets_bounds) return;
         skipped = enter;
-        const Eigen::Vector3d entry = (from - bvh.bounds_.center()) / bvh.diagonal_m_ + enter * unit;
+        const Eigen::Vector3d entry =
+            (from - bvh.bounds_.center()) / bvh.diagonal_m_ + enter * unit;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             start[axis] = static_cast<float>(entry[static_cast<Eigen::Index>(axis)]);
         }

@@ -129,9 +129,7 @@ HullPlaneTree::Nearest HullPlaneTree::nearest(const Eigen::Vector3d& point,
         if (item.distance > least * least) continue;
         if (BoxTree::is_leaf(item.child)) {
             const Pack& pack = packs_[BoxTree::leaf_first(item.child)];
-            const Eigen::Array4f distance = pack.offset - pack.normal[0] * unit[0] -
-                                            pack.normal[1] * unit[1] - pack.normal[2] * unit[2];
-            unsigned lanes = lanes_not_negative(least + kPad - distance);
+            unsigned lanes = lanes_not_negative(least + kPad - pack.distances(unit));
             while (lanes != 0) consider(pack.facet[take_lane(lanes)]);
             continue;
         }
@@ -140,6 +138,26 @@ HullPlaneTree::Nearest HullPlaneTree::nearest(const Eigen::Vector3d& point,
         open.push_children(node, lanes_not_negative(least * least - squared), squared);
     }
     return best;
+}
+
+void HullPlaneTree::nearer_than(const Eigen::Vector3d& point, double limit_m,
+                                std::vector<std::uint32_t>& facets) const {
+    facets.clear();
+    const Eigen::Array4f unit = to_units(point);
+    const float limit = static_cast<float>(limit_m / diagonal_m_) + kPad;
+    WaitingList open(tree_.root);
+    while (!open.empty()) {
+        const Waiting item = open.take();
+        if (BoxTree::is_leaf(item.child)) {
+            const Pack& pack = packs_[BoxTree::leaf_first(item.child)];
+            unsigned lanes = lanes_not_negative(limit + kPad - pack.distances(unit));
+            while (lanes != 0) facets.push_back(pack.facet[take_lane(lanes)]);
+            continue;
+        }
+        const BoxTree::Node& node = tree_.nodes[item.child];
+        const Eigen::Array4f squared = squared_distances(node, unit);
+        open.push_children(node, lanes_not_negative(limit * limit - squared), squared);
+    }
 }
 
 std::uint32_t HullPlaneTree::exit(const Eigen::Vector3d& origin,

@@ -1,5 +1,8 @@
 #include "path_ground.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "graspd/base/space_curve.hpp"
 
 namespace graspd::concavity_detail {
@@ -17,6 +20,25 @@ std::vector<std::uint32_t> near_order(const TriangleMesh& mesh, double diagonal_
     return order;
 }
 
+/// Per vertex the sine of the widest angle between its normal and one of its faces'; 1 from a right
+/// angle on.
+std::vector<float> spread_of_fans(const TriangleMesh& mesh,
+                                  const std::vector<Eigen::Vector3d>& normals) {
+    std::vector<float> least(mesh.vertices.size(), 1.0F);  // cosine
+    for (const Triangle& face : mesh.faces) {
+        const Eigen::Vector3d& a = mesh.vertices[face[0]];
+        const Eigen::Vector3d cross =
+            (mesh.vertices[face[1]] - a).cross(mesh.vertices[face[2]] - a);
+        const double area = cross.norm();
+        if (!(area > 0.0)) continue;
+        for (const std::uint32_t v : face) {
+            least[v] = std::min(least[v], static_cast<float>(normals[v].dot(cross) / area));
+        }
+    }
+    for (float& each : least) each = std::sqrt(1.0F - std::max(each, 0.0F) * std::max(each, 0.0F));
+    return least;
+}
+
 }  // namespace
 
 PathGround::PathGround(const TriangleMesh& of, const ConcavityConfig& config)
@@ -25,6 +47,7 @@ PathGround::PathGround(const TriangleMesh& of, const ConcavityConfig& config)
       offset_m(config.start_offset * diagonal_m),
       neighbours(of),
       normals(angle_weighted_normals(of)),
+      spread(spread_of_fans(of, normals)),
       order(near_order(of, diagonal_m)) {
     lifted.reserve(of.vertices.size());
     for (std::size_t v = 0; v < of.vertices.size(); ++v) {

@@ -18,6 +18,7 @@ struct PathGround {
     VertexNeighbours neighbours;
     std::vector<Eigen::Vector3d> normals;
     std::vector<Eigen::Vector3d> lifted;  ///< [m] vertices off the surface: where rays start
+    std::vector<float> spread;            ///< sine of the widest angle of a face to the normal
     std::vector<std::uint32_t> order;     ///< vertices so that the next is often near
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "graspd/base/lanes.hpp"
@@ -25,11 +26,12 @@ constexpr std::uint32_t kMostProbes = 8192;
 constexpr int kProbeRounds = 4;  // a region may be reached through another one only
 
 // Bent ways are shortened by looking around from so many vertices, each in a few of the directions,
-// and by so many bends and planes that most ways use, of which each vertex tries the best few.
+// and by the bends that most ways use and the nearest planes, of which each vertex tries a few.
 constexpr std::size_t kLookouts = 1024;
 constexpr int kLookoutRays = 4;
-constexpr std::size_t kPoolBends = 512, kPoolPlanes = 64, kPoolTries = 8;
-constexpr int kShortenRounds = 3;
+constexpr std::size_t kPoolBends = 512, kTries = 12;
+constexpr double kLeastGain = 1e-4;    // [1] of the value
+constexpr double kBesideFacet = 0.01;  // [1] of the diagonal: how far from a facet a foot may lie
 
 /// Directions spread evenly over the sphere: equal steps in height, golden angles between them.
 Eigen::Vector3d probe_direction(int index) {
@@ -192,10 +194,11 @@ std::vector<std::uint32_t> PathSearch::unreached_region(std::uint32_t seed,
 
 /// Looks from v in `count` of the directions that lead off the surface: a free ray proposes the
 /// plane it leaves the hull by, another one what it meets.
-bool PathSearch::probe(std::uint32_t v, int first, int count, int step, Way& way) {
+bool PathSearch::look_around(std::uint32_t v, int first, int count, Way& way) {
+    constexpr int kStep = 13;  // any odd number visits every direction
     bool improved = false;
     for (int k = 0; k < kProbeDirections && count > 0; ++k) {
-        const Eigen::Vector3d direction = probe_direction((first + k * step) % kProbeDirections);
+        const Eigen::Vector3d direction = probe_direction((first + k * kStep) % kProbeDirections);
         if (direction.dot(ground_.normals[v]) <= 0.0) continue;
         --count;
         const auto hit = bvh_.first_hit(ground_.lifted[v], direction, ground_.diagonal_m);
@@ -222,7 +225,7 @@ bool PathSearch::probe_unreached() {
         for (std::size_t i = 0; i < region.size() && probes_ < kMostProbes; i += step) {
             Way way = known(region[i]);
             probes_ += kProbeDirections;
-            if (probe(region[i], 0, kProbeDirections, 1, way)) accept(region[i], way);
+            if (look_around(region[i], 0, kProbeDirections, way)) accept(region[i], way);
         }
     }
     return !queue_.empty();
@@ -234,7 +237,7 @@ void PathSearch::reach_what_no_edge_reaches() {
 
 /// What most ways go through, bends in single precision and side by side.
 struct PathSearch::Pool {
-    std::vector<std::int32_t> bends, planes;
+    std::vector<std::int32_t> bends;
     std::vector<std::array<Eigen::Array4f, 4>> quads;  ///< x, y, z [m from the base] and value [m]
     Eigen::Vector3d base = Eigen::Vector3d::Zero();
     float margin_m = 0.0F;  ///< that single precision stays within
@@ -268,7 +271,6 @@ PathSearch::Pool PathSearch::most_used() const {
     Pool pool;
     for (const auto& [count, parent] : uses) {
         if (parent >= 0 && pool.bends.size() < kPoolBends) pool.bends.push_back(parent);
-        if (parent < 0 && pool.planes.size() < kPoolPlanes) pool.planes.push_back(parent);
     }
     pool.base = ground_.mesh.vertices[ground_.order.front()];
     pool.margin_m = static_cast<float>(4e-7 * ground_.diagonal_m);
@@ -287,37 +289,94 @@ PathSearch::Pool PathSearch::most_used() const {
     return pool;
 }
 
-/// Tries the most used bends and planes, of those that promise a gain the shortest first.
-void PathSearch::consider_pool(std::uint32_t v, const Pool& pool, Way& way) {
-    std::array<std::pair<double, std::int32_t>, kPoolTries> best;
-    std::size_t count = 0;
-    const auto note = [&](std::int32_t parent) {
-        const std::pair<double, std::int32_t> entry{length_through(v, parent), parent};
-        if (!(entry.first < way.value_m * (1.0 - config_.min_gain))) return;
-        if (count == kPoolTries && !(entry < best[count - 1])) return;
-        std::size_t place = count < kPoolTries ? count++ : count - 1;
-        for (; place > 0 && entry < best[place - 1]; --place) best[place] = best[place - 1];
-        best[place] = entry;
+/// Whether a straight way to a parent leaves the solid at v and a string over it would be taut: the
+/// bend must lie on the outline seen from v, and the string press onto the solid there.
+bool PathSearch::is_promising(std::uint32_t v, std::int32_t parent) const {
+    constexpr double kSlack = 0.1;  // sine; the lift lets ways start a little below a face
+    const std::vector<Eigen::Vector3d>& vertices = ground_.mesh.vertices;
+    const auto spread_at = [&](std::size_t u) { return double{ground_.spread[u]} + kSlack; };
+    const auto facet_normal = [&](std::int32_t plane) {
+        return planes_.facet(static_cast<std::uint32_t>(-1 - plane)).normal;
     };
-    for (const std::int32_t plane : pool.planes) note(plane);
-    const Eigen::Array3f at = (ground_.mesh.vertices[v] - pool.base).cast<float>().array();
-    for (std::size_t q = 0; q < pool.quads.size(); ++q) {
-        const auto& quad = pool.quads[q];
-        const Eigen::Array4f x = quad[0] - at[0], y = quad[1] - at[1], z = quad[2] - at[2];
-        const float limit = static_cast<float>(way.value_m) + pool.margin_m;
-        const Eigen::Array4f length = (x * x + y * y + z * z).sqrt() + quad[3];
-        unsigned lanes = lanes_not_negative(limit - length);
-        while (lanes != 0) note(pool.bends[4 * q + take_lane(lanes)]);
+    if (parent < 0) {
+        const HullFacet& facet = planes_.facet(static_cast<std::uint32_t>(-1 - parent));
+        if (facet.normal.dot(ground_.normals[v]) < -spread_at(v)) return false;
+        const double gap_m = facet.offset_m - facet.normal.dot(vertices[v]);
+        const Eigen::Vector3d foot = vertices[v] + gap_m * facet.normal;
+        return facet.box.exteriorDistance(foot) <= kBesideFacet * ground_.diagonal_m;
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!consider(v, best[i].second, way)) continue;
+    const Eigen::Vector3d to_bend = (vertices[parent] - vertices[v]).stableNormalized();
+    if (to_bend.dot(ground_.normals[v]) < -spread_at(v)) return false;
+    const Eigen::Vector3d& normal = ground_.normals[parent];
+    if (std::abs(to_bend.dot(normal)) > spread_at(static_cast<std::size_t>(parent))) return false;
+    const std::int32_t next = field_.parent[parent];
+    if (next == ConcavityField::kNoParent) return false;
+    const Eigen::Vector3d onward =
+        next < 0 ? facet_normal(next) : (vertices[next] - vertices[parent]).stableNormalized();
+    return (to_bend - onward).dot(normal) > -kSlack;
+}
+
+/// The few shortest of the candidates that promise a gain, shortest first.
+class PathSearch::Shortlist {
+public:
+    Shortlist(const PathSearch& search, std::uint32_t v, double limit_m)
+        : search_(search), v_(v), limit_m_(limit_m) {}
+
+    void note(std::int32_t parent) {
+        const std::pair<double, std::int32_t> entry{search_.length_through(v_, parent), parent};
+        if (!(entry.first < limit_m_)) return;
+        if (count_ == kTries && !(entry < best_[count_ - 1])) return;
+        if (!search_.is_promising(v_, parent)) return;
+        std::size_t place = count_ < kTries ? count_++ : count_ - 1;
+        for (; place > 0 && entry < best_[place - 1]; --place) best_[place] = best_[place - 1];
+        best_[place] = entry;
+    }
+    std::span<const std::pair<double, std::int32_t>> entries() const {
+        return {best_.data(), count_};
+    }
+
+private:
+    const PathSearch& search_;
+    std::uint32_t v_;
+    double limit_m_;
+    std::array<std::pair<double, std::int32_t>, kTries> best_;
+    std::size_t count_ = 0;
+};
+
+void PathSearch::consider_listed(std::uint32_t v, const Shortlist& list, Way& way) {
+    for (const auto& [length_m, parent] : list.entries()) {
+        if (!consider(v, parent, way)) continue;
         straighten(v, way);
         return;
     }
 }
 
+/// Tries the most used bends, of those that promise a gain the shortest first.
+void PathSearch::consider_pool(std::uint32_t v, const Pool& pool, Way& way) {
+    Shortlist list(*this, v, way.value_m * (1.0 - kLeastGain));
+    const Eigen::Array3f at = (ground_.mesh.vertices[v] - pool.base).cast<float>().array();
+    const float limit = static_cast<float>(way.value_m) + pool.margin_m;
+    for (std::size_t q = 0; q < pool.quads.size(); ++q) {
+        const auto& quad = pool.quads[q];
+        const Eigen::Array4f x = quad[0] - at[0], y = quad[1] - at[1], z = quad[2] - at[2];
+        const Eigen::Array4f length = (x * x + y * y + z * z).sqrt() + quad[3];
+        unsigned lanes = lanes_not_negative(limit - length);
+        while (lanes != 0) list.note(pool.bends[4 * q + take_lane(lanes)]);
+    }
+    consider_listed(v, list, way);
+}
+
+/// Tries the hull's planes that are nearer than the way is long, the nearest first.
+void PathSearch::consider_planes(std::uint32_t v, Way& way) {
+    thread_local std::vector<std::uint32_t> facets;  // one allocation a thread instead of a vertex
+    planes_.nearer_than(ground_.mesh.vertices[v], way.value_m, facets);
+    Shortlist list(*this, v, way.value_m * (1.0 - kLeastGain));
+    for (const std::uint32_t facet : facets) list.note(-1 - static_cast<std::int32_t>(facet));
+    consider_listed(v, list, way);
+}
+
 /// Searches a better way for each vertex on its own, then takes what was found.
-bool PathSearch::improve(
+void PathSearch::improve(
     const std::vector<std::uint32_t>& vertices,
     const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search) {
     std::vector<Way> ways(vertices.size());
@@ -327,9 +386,7 @@ bool PathSearch::improve(
             search(vertices[i], i, ways[i]);
         }
     });
-    bool improved = false;
-    for (std::size_t i = 0; i < vertices.size(); ++i) improved |= accept(vertices[i], ways[i]);
-    return improved;
+    for (std::size_t i = 0; i < vertices.size(); ++i) accept(vertices[i], ways[i]);
 }
 
 /// Step 4: the next bend may lie across the void, where no mesh edge leads.
@@ -337,21 +394,16 @@ void PathSearch::shorten_across_the_void() {
     const std::vector<std::uint32_t> bent = bent_vertices();
     if (bent.empty()) return;
     const std::size_t stride = 1 + bent.size() / kLookouts;
-    for (int round = 0; round < kShortenRounds; ++round) {
-        const Pool pool = most_used();
-        const bool improved =
-            improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {
-                for (const std::uint32_t u : ground_.neighbours.of(v)) {
-                    if (finished(u) && consider(v, field_.parent[u], way)) straighten(v, way);
-                }
-                consider_pool(v, pool, way);
-                if (place % stride == static_cast<std::size_t>(round) % stride) {
-                    probe(v, static_cast<int>(place), kLookoutRays, 13, way);
-                }
-            });
-        if (!improved) return;
-        propagate();
-    }
+    const Pool pool = most_used();
+    improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {
+        for (const std::uint32_t u : ground_.neighbours.of(v)) {
+            if (finished(u) && consider(v, field_.parent[u], way)) straighten(v, way);
+        }
+        consider_planes(v, way);
+        consider_pool(v, pool, way);
+        if (place % stride == 0) look_around(v, static_cast<int>(place), kLookoutRays, way);
+    });
+    propagate();
 }
 
 /// Step 5: bends slide along mesh edges.
@@ -360,7 +412,11 @@ void PathSearch::slide_bends() {
     const BendSlider slider(ground_, planes_, bvh_, field_);
     std::vector<SlidWay> ways(bent.size());
     for_blocks(bent.size(), kBlock, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) ways[i] = slider.slide(bent[i]);
+        for (std::size_t i = first; i < last; ++i) {
+            ways[i] = slider.slide(bent[i]);
+            SlidWay tilted = slider.tilt(bent[i]);
+            if (tilted.value_m < ways[i].value_m) ways[i] = std::move(tilted);
+        }
     });
     for (std::size_t i = 0; i < bent.size(); ++i) {
         if (ways[i].value_m < field_.value_m[bent[i]]) take_slid(ways[i], bent[i], field_);

@@ -41,6 +41,7 @@ private:
         std::int32_t parent;
     };
     struct Pool;
+    class Shortlist;
 
     bool finished(std::uint32_t v) const { return std::isfinite(field_.value_m[v]); }
     bool unreached(std::uint32_t v) const { return field_.flag[v] == ConcavityFlag::kEnclosed; }
@@ -56,13 +57,16 @@ private:
     void propagate();
 
     std::vector<std::uint32_t> unreached_region(std::uint32_t seed, std::vector<char>& seen) const;
-    bool probe(std::uint32_t v, int first, int count, int step, Way& way);
+    bool look_around(std::uint32_t v, int first, int count, Way& way);
     bool probe_unreached();
 
     std::vector<std::uint32_t> bent_vertices() const;
     Pool most_used() const;
+    bool is_promising(std::uint32_t v, std::int32_t parent) const;
+    void consider_listed(std::uint32_t v, const Shortlist& list, Way& way);
+    void consider_planes(std::uint32_t v, Way& way);
     void consider_pool(std::uint32_t v, const Pool& pool, Way& way);
-    bool improve(const std::vector<std::uint32_t>& vertices,
+    void improve(const std::vector<std::uint32_t>& vertices,
                  const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search);
 
     const PathGround& ground_;

@@ -8,11 +8,13 @@
 namespace graspd::concavity_detail {
 namespace {
 
-constexpr std::size_t kMostBends = 6;   // of a way that slide; what follows stays
-constexpr int kEdgeRounds = 8;          // a bend that reaches an edge's end goes on along another
-constexpr int kSettleRounds = 64;       // of bends in turn, until none moves
-constexpr double kSettled = 1e-9;       // [1] of the edge
-constexpr double kLeastGain = 1e-6;     // [1] of the value; less is not worth its rays
+constexpr std::size_t kMostBends = 6;    // of a way that slide; what follows stays
+constexpr int kEdgeRounds = 8;           // a bend that reaches an edge's end goes on along another
+constexpr int kSettleRounds = 64;        // of bends in turn, until none moves
+constexpr double kSettled = 1e-9;        // [1] of the edge
+constexpr int kTiltRounds = 6;           // halvings of the tilt
+constexpr double kLeastTiltGain = 1e-3;  // [1] of the value
+constexpr double kLeastGain = 1e-6;      // [1] of the value; less is not worth its rays
 
 /// Where the way a, p, c is shortest for p = base + s * along on a line, along of unit length:
 /// c turned about the line into a's plane, on the other side, is seen from a in a straight line.
@@ -34,8 +36,9 @@ double shortest_to_plane(const Eigen::Vector3d& base, const Eigen::Vector3d& alo
     const double slope = along.dot(normal);
     const double rest = 1.0 - slope * slope;
     constexpr double kPerpendicular = 1e-12;
-    if (rest < kPerpendicular) return slope > 0.0 ? std::numeric_limits<double>::infinity()
-                                                  : -std::numeric_limits<double>::infinity();
+    if (rest < kPerpendicular)
+        return slope > 0.0 ? std::numeric_limits<double>::infinity()
+                           : -std::numeric_limits<double>::infinity();
     return at_a + far_a * slope / std::sqrt(rest);
 }
 
@@ -149,8 +152,8 @@ bool BendSlider::settle(Chain& chain) const {
 Eigen::Vector3d BendSlider::lifted(const Bend& bend) const {
     if (bend.share <= 0.0) return ground_.lifted[bend.from];
     if (bend.share >= 1.0) return ground_.lifted[bend.to];
-    const Eigen::Vector3d normal = (1.0 - bend.share) * ground_.normals[bend.from] +
-                                   bend.share * ground_.normals[bend.to];
+    const Eigen::Vector3d normal =
+        (1.0 - bend.share) * ground_.normals[bend.from] + bend.share * ground_.normals[bend.to];
     return bend.point + ground_.offset_m * normal.stableNormalized();
 }
 
@@ -184,14 +187,53 @@ SlidWay BendSlider::slide(std::uint32_t vertex) const {
     return way;
 }
 
+SlidWay BendSlider::tilt(std::uint32_t vertex) const {
+    SlidWay way{std::numeric_limits<double>::infinity(), {}, 0};
+    std::int32_t end = field_.parent[vertex];
+    if (end < 0) return way;
+    while (end >= 0) end = field_.parent[static_cast<std::size_t>(end)];
+    const Eigen::Vector3d& normal = planes_.facet(static_cast<std::uint32_t>(-1 - end)).normal;
+    const Eigen::Vector3d& start = ground_.lifted[vertex];
+    const Eigen::Vector3d side =
+        (ground_.normals[vertex] - ground_.normals[vertex].dot(normal) * normal).stableNormalized();
+    const double depth_m = planes_.facet(static_cast<std::uint32_t>(-1 - end)).offset_m -
+                           normal.dot(ground_.mesh.vertices[vertex]);
+    const double most_m = field_.value_m[vertex] * (1.0 - kLeastTiltGain);
+    if (!(depth_m < most_m) || side.isZero()) return way;
+    const auto direction = [&](double tangent) {
+        return Eigen::Vector3d((normal + tangent * side).normalized());
+    };
+    const auto is_clear = [&](double tangent) {
+        const double length_m = depth_m * std::sqrt(1.0 + tangent * tangent) + ground_.offset_m;
+        return !bvh_.segment_blocked(start, start + length_m * direction(tangent));
+    };
+    double clear = std::sqrt(most_m * most_m / (depth_m * depth_m) - 1.0), blocked = 0.0;
+    if (!is_clear(clear)) return way;
+    for (int round = 0; round < kTiltRounds; ++round) {
+        const double middle = 0.5 * (clear + blocked);
+        (is_clear(middle) ? clear : blocked) = middle;
+    }
+    const Eigen::Vector3d out = direction(clear);
+    const std::uint32_t facet = planes_.exit(ground_.mesh.vertices[vertex], out);
+    const HullFacet& plane = planes_.facet(facet);
+    const double slope = plane.normal.dot(out);
+    const double length_m =
+        (plane.offset_m - plane.normal.dot(ground_.mesh.vertices[vertex])) / slope;
+    if (!(slope > 0.0 && length_m > 0.0 && length_m < most_m)) return way;
+    way.value_m = length_m;
+    way.parent = -1 - static_cast<std::int32_t>(facet);
+    const double tested_m = (plane.offset_m - plane.normal.dot(start) - ground_.offset_m) / slope;
+    way.bends.push_back(
+        {ground_.mesh.vertices[vertex] + length_m * out, start + std::max(0.0, tested_m) * out, 0});
+    return way;
+}
+
 void take_slid(const SlidWay& way, std::uint32_t vertex, ConcavityField& field) {
-    const auto first =
-        static_cast<std::int32_t>(field.value_m.size() + field.edge_bends.size());
+    const auto first = static_cast<std::int32_t>(field.value_m.size() + field.edge_bends.size());
     for (std::size_t i = 0; i < way.bends.size(); ++i) {
         field.edge_bends.push_back(way.bends[i]);
-        field.edge_bends.back().parent = i + 1 == way.bends.size()
-                                             ? way.parent
-                                             : first + 1 + static_cast<std::int32_t>(i);
+        field.edge_bends.back().parent =
+            i + 1 == way.bends.size() ? way.parent : first + 1 + static_cast<std::int32_t>(i);
     }
     field.value_m[vertex] = way.value_m;
     field.parent[vertex] = first;

@@ -27,6 +27,11 @@ public:
     /// A free way from the vertex that is shorter than the field's.
     SlidWay slide(std::uint32_t vertex) const;
 
+    /// A straight free way that leaves the hull aslant and is shorter than the field's bent one:
+    /// where a rough wall blocks the perpendicular, the least tilt away from the wall that clears
+    /// it.
+    SlidWay tilt(std::uint32_t vertex) const;
+
 private:
     /// A bend on its way: at `from`, or between there and `to`.
     struct Bend {

@@ -17,7 +17,8 @@ inline unsigned lanes_not_negative(const Eigen::Array4f& lanes) {
 #else
     unsigned mask = 0;
     for (unsigned k = 0; k < 4; ++k) {
-        mask |= (1u - (std::bit_cast<std::uint32_t>(lanes[static_cast<Eigen::Index>(k)]) >> 31)) << k;
+        mask |= (1u - (std::bit_cast<std::uint32_t>(lanes[static_cast<Eigen::Index>(k)]) >> 31))
+                << k;
     }
     return mask;
 #endif

@@ -17,9 +17,9 @@ namespace graspd {
 /// Watertight by an absolute tolerance: a ray within `tolerance_m` of a triangle's edge hits it, so
 /// nothing leaks between neighbours however small they are. (A tolerance relative to the triangle
 /// leaks above 20k faces; see docs/architecture.md.) Rays in a triangle's own plane do not hit it.
-/// Boxes and, four at a time, triangles are sorted out in single precision with a margin for all its
-/// roundings; what is left is judged in double precision.
-/// Immutable after construction, so safe to query from any thread.
+/// Boxes and, four at a time, triangles are sorted out in single precision with a margin for all
+/// its roundings; what is left is judged in double precision. Immutable after construction, so safe
+/// to query from any thread.
 class TriangleBvh {
 public:
     /// A place where a ray meets the surface.

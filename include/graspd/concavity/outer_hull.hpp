@@ -50,6 +50,11 @@ public:
     /// @param hint  a facet that may be near, such as a neighbouring point's: it only saves time
     Nearest nearest(const Eigen::Vector3d& point, std::uint32_t hint = 0) const;
 
+    /// Every facet whose plane is nearer than a limit [m], and a few more, in no order that means
+    /// anything.
+    void nearer_than(const Eigen::Vector3d& point, double limit_m,
+                     std::vector<std::uint32_t>& facets) const;
+
     /// The facet by whose plane a ray from inside leaves the hull; ties by the lower index, 0 where
     /// rounding leaves none.
     std::uint32_t exit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
@@ -62,6 +67,10 @@ private:
         std::array<Eigen::Array4f, 3> normal;
         Eigen::Array4f offset;  ///< infinite where there is no facet
         std::array<std::uint32_t, 4> facet{};
+
+        Eigen::Array4f distances(const Eigen::Array4f& unit) const {
+            return offset - normal[0] * unit[0] - normal[1] * unit[1] - normal[2] * unit[2];
+        }
     };
     void add_pack(std::uint32_t& leaf);
     Eigen::Array4f to_units(const Eigen::Vector3d& point) const;

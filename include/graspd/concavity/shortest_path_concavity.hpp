@@ -55,7 +55,8 @@ struct ConcavityField {
     std::vector<double> value_m;  ///< [m] >= 0, +inf (enclosed) or NaN (unreferenced)
     std::vector<ConcavityFlag> flag;
     /// What comes next on the way out. For V vertices: 0 <= p < V the bend at vertex p; p >= V the
-    /// bend edge_bends[p - V]; -1 - f the hull's facet f, straight; kNoParent where there is no way.
+    /// bend edge_bends[p - V]; -1 - f the hull's facet f, straight; kNoParent where there is no
+    /// way.
     std::vector<std::int32_t> parent;
     std::vector<EdgeBend> edge_bends;
     std::vector<Eigen::Vector3d> lifted;  ///< [m] the vertices, where rays start: off the surface
