@@ -28,10 +28,13 @@ constexpr int kProbeRounds = 4;  // a region may be reached through another one 
 // Bent ways are shortened by looking around from so many vertices, each in a few of the directions,
 // and by the bends that most ways use and the nearest planes, of which each vertex tries a few.
 constexpr std::size_t kLookouts = 1024;
-constexpr int kLookoutRays = 4;
-constexpr std::size_t kPoolBends = 512, kTries = 12;
+constexpr int kLookoutRays = 4, kBendRays = 8;
+constexpr std::size_t kPoolBends = 512;
+constexpr std::size_t kTries = 12, kMostTries = 64;  // the latter for bends, which serve many ways
 constexpr double kLeastGain = 1e-4;    // [1] of the value
 constexpr double kBesideFacet = 0.01;  // [1] of the diagonal: how far from a facet a foot may lie
+
+using Entry = std::pair<double, std::int32_t>;  ///< length [m] through a parent, the parent
 
 /// Directions spread evenly over the sphere: equal steps in height, golden angles between them.
 Eigen::Vector3d probe_direction(int index) {
@@ -319,28 +322,26 @@ bool PathSearch::is_promising(std::uint32_t v, std::int32_t parent) const {
 /// The few shortest of the candidates that promise a gain, shortest first.
 class PathSearch::Shortlist {
 public:
-    Shortlist(const PathSearch& search, std::uint32_t v, double limit_m)
-        : search_(search), v_(v), limit_m_(limit_m) {}
+    Shortlist(const PathSearch& search, std::uint32_t v, double limit_m, std::size_t tries)
+        : search_(search), v_(v), limit_m_(limit_m), tries_(tries) {}
 
     void note(std::int32_t parent) {
-        const std::pair<double, std::int32_t> entry{search_.length_through(v_, parent), parent};
+        const Entry entry{search_.length_through(v_, parent), parent};
         if (!(entry.first < limit_m_)) return;
-        if (count_ == kTries && !(entry < best_[count_ - 1])) return;
+        if (count_ == tries_ && !(entry < best_[count_ - 1])) return;
         if (!search_.is_promising(v_, parent)) return;
-        std::size_t place = count_ < kTries ? count_++ : count_ - 1;
+        std::size_t place = count_ < tries_ ? count_++ : count_ - 1;
         for (; place > 0 && entry < best_[place - 1]; --place) best_[place] = best_[place - 1];
         best_[place] = entry;
     }
-    std::span<const std::pair<double, std::int32_t>> entries() const {
-        return {best_.data(), count_};
-    }
+    std::span<const Entry> entries() const { return {best_.data(), count_}; }
 
 private:
     const PathSearch& search_;
     std::uint32_t v_;
     double limit_m_;
-    std::array<std::pair<double, std::int32_t>, kTries> best_;
-    std::size_t count_ = 0;
+    std::array<Entry, kMostTries> best_;
+    std::size_t tries_, count_ = 0;
 };
 
 void PathSearch::consider_listed(std::uint32_t v, const Shortlist& list, Way& way) {
@@ -352,8 +353,8 @@ void PathSearch::consider_listed(std::uint32_t v, const Shortlist& list, Way& wa
 }
 
 /// Tries the most used bends, of those that promise a gain the shortest first.
-void PathSearch::consider_pool(std::uint32_t v, const Pool& pool, Way& way) {
-    Shortlist list(*this, v, way.value_m * (1.0 - kLeastGain));
+void PathSearch::consider_pool(std::uint32_t v, const Pool& pool, std::size_t tries, Way& way) {
+    Shortlist list(*this, v, way.value_m * (1.0 - kLeastGain), tries);
     const Eigen::Array3f at = (ground_.mesh.vertices[v] - pool.base).cast<float>().array();
     const float limit = static_cast<float>(way.value_m) + pool.margin_m;
     for (std::size_t q = 0; q < pool.quads.size(); ++q) {
@@ -370,7 +371,7 @@ void PathSearch::consider_pool(std::uint32_t v, const Pool& pool, Way& way) {
 void PathSearch::consider_planes(std::uint32_t v, Way& way) {
     thread_local std::vector<std::uint32_t> facets;  // one allocation a thread instead of a vertex
     planes_.nearer_than(ground_.mesh.vertices[v], way.value_m, facets);
-    Shortlist list(*this, v, way.value_m * (1.0 - kLeastGain));
+    Shortlist list(*this, v, way.value_m * (1.0 - kLeastGain), kTries);
     for (const std::uint32_t facet : facets) list.note(-1 - static_cast<std::int32_t>(facet));
     consider_listed(v, list, way);
 }
@@ -389,10 +390,23 @@ void PathSearch::improve(
     for (std::size_t i = 0; i < vertices.size(); ++i) accept(vertices[i], ways[i]);
 }
 
-/// Step 4: the next bend may lie across the void, where no mesh edge leads.
+/// Step 4: the next bend may lie across the void, where no mesh edge leads. First the bends' own
+/// ways, which many share, then every vertex'.
 void PathSearch::shorten_across_the_void() {
     const std::vector<std::uint32_t> bent = bent_vertices();
     if (bent.empty()) return;
+    const Pool bends = most_used();
+    std::vector<std::uint32_t> bent_bends;
+    for (const std::int32_t bend : bends.bends) {
+        const auto v = static_cast<std::uint32_t>(bend);
+        if (field_.flag[v] == ConcavityFlag::kPath) bent_bends.push_back(v);
+    }
+    improve(bent_bends, [&](std::uint32_t v, std::size_t place, Way& way) {
+        consider_planes(v, way);
+        consider_pool(v, bends, kMostTries, way);
+        look_around(v, static_cast<int>(place), kBendRays, way);
+    });
+    propagate();
     const std::size_t stride = 1 + bent.size() / kLookouts;
     const Pool pool = most_used();
     improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {
@@ -400,7 +414,7 @@ void PathSearch::shorten_across_the_void() {
             if (finished(u) && consider(v, field_.parent[u], way)) straighten(v, way);
         }
         consider_planes(v, way);
-        consider_pool(v, pool, way);
+        consider_pool(v, pool, kTries, way);
         if (place % stride == 0) look_around(v, static_cast<int>(place), kLookoutRays, way);
     });
     propagate();

@@ -65,7 +65,7 @@ private:
     bool is_promising(std::uint32_t v, std::int32_t parent) const;
     void consider_listed(std::uint32_t v, const Shortlist& list, Way& way);
     void consider_planes(std::uint32_t v, Way& way);
-    void consider_pool(std::uint32_t v, const Pool& pool, Way& way);
+    void consider_pool(std::uint32_t v, const Pool& pool, std::size_t tries, Way& way);
     void improve(const std::vector<std::uint32_t>& vertices,
                  const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search);
 
