@@ -218,8 +218,11 @@ int lathe_sides(const std::vector<Eigen::Vector2d>& profile, bool closed, std::s
 TriangleMesh twisted_lathe(const std::vector<Eigen::Vector2d>& profile, int sides,
                            std::size_t faces, std::uint64_t seed) {
     const double rings = static_cast<double>(faces) / (2.0 * sides);
-    const std::vector<Eigen::Vector2d> points =
-        divide_profile(profile, false, outline_length(profile, false) / rings);
+    double spacing = outline_length(profile, false) / rings;
+    std::vector<Eigen::Vector2d> points = divide_profile(profile, false, spacing);
+    while (points.size() > profile.size() && static_cast<double>(points.size()) > rings) {
+        points = divide_profile(profile, false, spacing *= 1.1);  // short pieces stay whole
+    }
     // A turn by a whole number of sides changes nothing but the corners' order, so half a side
     // either way relative to the ring before is every angle.
     std::mt19937_64 random(seed);

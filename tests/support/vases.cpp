@@ -24,13 +24,13 @@ constexpr double kInnerTo = 250.0;    // [deg] where it ends inside
 
 /// Pieces of a quarter of the lip: as fine as the mesh, but round at every size.
 int lip_parts(std::size_t faces) {
-    return std::max(4, static_cast<int>(std::lround(std::sqrt(static_cast<double>(faces)) / 16)));
+    return std::max(4, static_cast<int>(std::lround(std::sqrt(static_cast<double>(faces)) / 24)));
 }
 
 /// Sides of a twisted vase's rings: more than an even mesh would have, as the bracket's width falls
 /// with their square.
 int twisted_sides(std::size_t faces) {
-    return std::max(40, static_cast<int>(std::lround(std::sqrt(5.0 * static_cast<double>(faces)))));
+    return std::max(40, static_cast<int>(std::lround(std::sqrt(3.0 * static_cast<double>(faces)))));
 }
 
 void add_lip(std::vector<Vector2d>& line, double from_deg, double to_deg, int parts) {
