@@ -93,6 +93,7 @@ PathCertificate certify_paths(const TriangleMesh& mesh, const ConcavityRun& run,
         count.vertices += run.field.flag[v] != ConcavityFlag::kUnreferenced;
         const bool exact = run.field.flag[v] == ConcavityFlag::kExact;
         count.exact += exact;
+        count.enclosed += run.field.flag[v] == ConcavityFlag::kEnclosed;
         if (!std::isfinite(value_m) || value_m < 2.0 * lift_m) continue;
         ++count.paths;
         const std::vector<Vector3d> path = escape_path(mesh, run.hull, run.field, v);

@@ -15,6 +15,7 @@ struct PathCertificate {
 
     std::size_t vertices = 0;         ///< that faces use
     std::size_t exact = 0;            ///< of them flagged exact
+    std::size_t enclosed = 0;         ///< of them without a way out
     std::size_t paths = 0;            ///< of vertices further in than two lifts
     std::size_t segments = 0;         ///< different ones of those paths
     std::size_t blocked = 0;          ///< of the segments

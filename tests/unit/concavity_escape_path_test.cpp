@@ -10,6 +10,7 @@
 #include "support/concavity_run.hpp"
 #include "support/mesh_damage.hpp"
 #include "support/path_certificate.hpp"
+#include "support/shapes.hpp"
 
 namespace graspd {
 namespace {
@@ -27,6 +28,7 @@ void expect_certified(const std::string& name, const TriangleMesh& mesh) {
     EXPECT_EQ(found.wrong_ends, 0u) << "of " << found.paths << " paths";
     EXPECT_EQ(found.strayed, 0u) << "of " << found.paths << " paths";
     EXPECT_EQ(found.not_exact, 0u) << "of " << found.exact << " vertices flagged exact";
+    EXPECT_LE(100 * found.enclosed, found.vertices) << "nothing to certify";
     if (found.first_bad != test::PathCertificate::kNone) {
         ADD_FAILURE() << name << ": vertex " << found.first_bad << " at "
                       << mesh.vertices[found.first_bad].transpose() << ", value "
@@ -82,6 +84,46 @@ TEST_P(WaysOfScan, AreFreeUnderExactPredicates) {
 INSTANTIATE_TEST_SUITE_P(EscapePath, WaysOfScan,
                          testing::Values("hammer.ply", "koala_bear.obj", "stacking_cup.ply"),
                          test_name);
+
+// What the certificate rests on: a segment that touches one corner of the surface is blocked, one
+// beside it is free; bars that cross intersect themselves, a closed shape does not.
+TEST(ExactSurface, TellsBlockedFromFree) {
+    const test::ExactSurface box(test::box({0.2, 0.2, 0.2}, 12));
+    EXPECT_TRUE(box.blocks({0.0, 0.0, 0.0}, {0.0, 0.0, 0.3}));
+    EXPECT_TRUE(box.blocks({0.1, 0.1, 0.1}, {0.3, 0.3, 0.3}));
+    EXPECT_FALSE(box.blocks({0.1, 0.1, std::nextafter(0.1, 1.0)}, {0.3, 0.3, 0.3}));
+    EXPECT_FALSE(box.blocks({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0999}));
+    const TriangleMesh bar = test::box({0.3, 0.04, 0.04}, 400);
+    EXPECT_FALSE(test::intersects_itself(bar));
+    EXPECT_TRUE(test::intersects_itself(test::joined(bar, test::box({0.04, 0.3, 0.03}, 400))));
+}
+
+// A certificate that cannot fail is none: each falsehood in a sound field shows up in its count.
+TEST(PathCertificate, FindsWhatIsWrong) {
+    const test::ConcavityAnswer channel = test::concavity_answer("undercut channel", 1000);
+    const test::ExactSurface surface(channel.mesh);
+    const test::ConcavityRun sound = test::run_concavity(channel.mesh);
+    std::uint32_t v = 0;  // whose way bends
+    while (sound.field.parent[v] < 0) ++v;
+    const std::int32_t facet = sound.field.parent[static_cast<std::size_t>(sound.field.parent[v])];
+    ASSERT_LT(facet, 0);
+
+    test::ConcavityRun through_the_lid = sound;  // to the bend's hull plane straight
+    const HullFacet& top = sound.hull.facets[static_cast<std::size_t>(-1 - facet)];
+    through_the_lid.field.parent[v] = facet;
+    through_the_lid.field.value_m[v] = top.offset_m - top.normal.dot(channel.mesh.vertices[v]);
+    test::PathCertificate found = test::certify_paths(channel.mesh, through_the_lid, surface);
+    EXPECT_GT(found.blocked, 0u);
+    EXPECT_EQ(found.first_bad, v);
+
+    test::ConcavityRun shortened = sound;
+    shortened.field.value_m[v] *= 0.999;
+    EXPECT_EQ(test::certify_paths(channel.mesh, shortened, surface).wrong_lengths, 1u);
+
+    test::ConcavityRun called_exact = sound;
+    called_exact.field.flag[v] = ConcavityFlag::kExact;
+    EXPECT_EQ(test::certify_paths(channel.mesh, called_exact, surface).not_exact, 1u);
+}
 
 // From beneath the lid of an undercut channel: the vertex, the slot's lower edge, straight up to
 // the hull's top. Worked by hand.
