@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "support/shapes.hpp"
+#include "support/tunnels.hpp"
+#include "support/vases.hpp"
 
 namespace graspd::test {
 namespace {
@@ -173,27 +175,96 @@ ConcavityAnswer labyrinth(std::size_t faces) {
             }};
 }
 
+ConcavityAnswer block(std::size_t faces) {
+    return {"box", box({0.1, 0.2, 0.3}, faces), [](const Vector3d&) { return 0.0; }};
+}
+
+ConcavityAnswer ball(std::size_t faces) {
+    return {"sphere", sphere(0.05, faces), [](const Vector3d&) { return 0.0; }};
+}
+
+ConcavityAnswer truncated_wedge(std::size_t faces) {
+    return {"wedge", wedge(0.02, 0.06, 0.08, 0.05, faces), [](const Vector3d&) { return 0.0; }};
+}
+
+ConcavityAnswer plane_tunnel(std::size_t faces) {
+    return {"tunnel_2d", tunnel_2d(faces), tunnel_2d_concavity_m};
+}
+
+ConcavityAnswer skew_tunnel(std::size_t faces) {
+    return {"tunnel_3d", tunnel_3d(faces), tunnel_3d_concavity_m};
+}
+
+ConcavityAnswer round_lip(std::size_t faces) {
+    const VaseAnswer answer = vase_answer(faces);
+    return {"vase", vase(faces), [answer](const Vector3d& p) { return answer.lowest_m(p); }};
+}
+
+ConcavityAnswer twisted_lip(std::size_t faces) {
+    const VaseAnswer answer = twisted_vase_answer(faces);
+    return {"twisted vase", twisted_vase(faces, 5),
+            [answer](const Vector3d& p) { return answer.lowest_m(p); },
+            [answer](const Vector3d& p) { return answer.highest_m(p); }};
+}
+
+struct NamedAnswer {
+    const char* name;
+    ConcavityAnswer (*make)(std::size_t faces);
+};
+
+constexpr std::array<NamedAnswer, 14> kStraight{{{"box", block},
+                                                 {"sphere", ball},
+                                                 {"wedge", truncated_wedge},
+                                                 {"channel", channel},
+                                                 {"blind hole", hole},
+                                                 {"plate", plate},
+                                                 {"L", angle_iron},
+                                                 {"box hourglass", square_hourglass},
+                                                 {"cup", round_cup},
+                                                 {"bowl", half_shell},
+                                                 {"torus", ring_of_tube},
+                                                 {"ring", square_ring},
+                                                 {"dumbbell", balls_on_a_bar},
+                                                 {"hourglass", discs_on_a_neck}}};
+constexpr std::array<NamedAnswer, 2> kBent{
+    {{"undercut channel", undercut_channel}, {"labyrinth", labyrinth}}};
+constexpr std::array<NamedAnswer, 4> kFurther{{{"tunnel_2d", plane_tunnel},
+                                               {"tunnel_3d", skew_tunnel},
+                                               {"vase", round_lip},
+                                               {"twisted vase", twisted_lip}}};
+
+std::vector<NamedAnswer> all_answers() {
+    std::vector<NamedAnswer> all(kStraight.begin(), kStraight.end());
+    all.insert(all.end(), kBent.begin(), kBent.end());
+    all.insert(all.end(), kFurther.begin(), kFurther.end());
+    return all;
+}
+
 }  // namespace
 
 std::vector<ConcavityAnswer> straight_answers(std::size_t faces) {
-    return {{"box", box({0.1, 0.2, 0.3}, faces), [](const Vector3d&) { return 0.0; }},
-            {"sphere", sphere(0.05, faces), [](const Vector3d&) { return 0.0; }},
-            {"wedge", wedge(0.02, 0.06, 0.08, 0.05, faces), [](const Vector3d&) { return 0.0; }},
-            channel(faces),
-            hole(faces),
-            plate(faces),
-            angle_iron(faces),
-            square_hourglass(faces),
-            round_cup(faces),
-            half_shell(faces),
-            ring_of_tube(faces),
-            square_ring(faces),
-            balls_on_a_bar(faces),
-            discs_on_a_neck(faces)};
+    std::vector<ConcavityAnswer> answers;
+    for (const NamedAnswer& answer : kStraight) answers.push_back(answer.make(faces));
+    return answers;
 }
 
 std::vector<ConcavityAnswer> bent_answers(std::size_t faces) {
-    return {undercut_channel(faces), labyrinth(faces)};
+    std::vector<ConcavityAnswer> answers;
+    for (const NamedAnswer& answer : kBent) answers.push_back(answer.make(faces));
+    return answers;
+}
+
+std::vector<std::string> answer_names() {
+    std::vector<std::string> names;
+    for (const NamedAnswer& answer : all_answers()) names.emplace_back(answer.name);
+    return names;
+}
+
+ConcavityAnswer concavity_answer(const std::string& name, std::size_t faces) {
+    const std::vector<NamedAnswer> all = all_answers();
+    const auto named =
+        std::ranges::find_if(all, [&](const NamedAnswer& answer) { return name == answer.name; });
+    return named->make(faces);
 }
 
 }  // namespace graspd::test

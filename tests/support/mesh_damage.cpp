@@ -45,6 +45,17 @@ TriangleMesh scaled(TriangleMesh mesh, double factor) {
     return mesh;
 }
 
+TriangleMesh noisy(TriangleMesh mesh, double share_of_diagonal, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
+    const double reach_m = share_of_diagonal * box.diagonal().norm();
+    for (Eigen::Vector3d& vertex : mesh.vertices) {
+        for (double& coordinate : vertex) coordinate += reach_m * fraction(random);
+    }
+    return mesh;
+}
+
 TriangleMesh shuffled(const TriangleMesh& mesh, std::uint64_t seed,
                       std::vector<std::uint32_t>* new_of_old) {
     std::mt19937_64 random(seed);

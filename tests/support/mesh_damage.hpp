@@ -18,6 +18,9 @@ TriangleMesh moved(TriangleMesh mesh, const Eigen::Isometry3d& X_new_old);
 Eigen::Isometry3d random_pose(std::uint64_t seed);
 TriangleMesh scaled(TriangleMesh mesh, double factor);
 
+/// Every vertex moved along each axis by up to a share of the bounding box's diagonal either way.
+TriangleMesh noisy(TriangleMesh mesh, double share_of_diagonal, std::uint64_t seed);
+
 /// Vertices and faces in another order, faces starting at another corner; the same surface.
 /// @param new_of_old  where each vertex went, when wanted
 TriangleMesh shuffled(const TriangleMesh& mesh, std::uint64_t seed,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 #include <utility>
 
 namespace graspd::test {
@@ -130,44 +131,34 @@ std::vector<Eigen::Vector2d> divide_profile(const std::vector<Eigen::Vector2d>& 
     return points;
 }
 
-std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed_counts(const TriangleMesh& mesh) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> counts;
-    for (const Triangle& face : mesh.faces) {
-        for (std::size_t k = 0; k < 3; ++k) ++counts[{face[k], face[(k + 1) % 3]}];
-    }
-    return counts;
-}
-
-}  // namespace
-
-TriangleMesh grid_solid(const std::array<std::vector<double>, 3>& lines,
-                        const std::function<bool(int, int, int)>& filled, std::size_t faces) {
-    const TriangleMesh coarse = grid_surface(lines, filled, 1e9);
-    if (coarse.faces.size() >= faces) return coarse;
-    // A square of side s carries two triangles.
-    const double spacing = std::sqrt(2.0 * area_m2(coarse) / static_cast<double>(faces));
-    return grid_surface(lines, filled, spacing);
-}
-
-TriangleMesh lathe(const std::vector<Eigen::Vector2d>& profile, bool closed, std::size_t faces) {
+double outline_length(const std::vector<Eigen::Vector2d>& profile, bool closed) {
     double length = closed ? (profile.front() - profile.back()).norm() : 0.0;
-    double radius = 0.0;
-    for (std::size_t i = 0; i < profile.size(); ++i) {
-        radius = std::max(radius, profile[i].x());
-        if (i > 0) length += (profile[i] - profile[i - 1]).norm();
-    }
-    const double spacing =
-        std::sqrt(4.0 * std::numbers::pi * radius * length / static_cast<double>(faces));
-    const std::vector<Eigen::Vector2d> points = divide_profile(profile, closed, spacing);
-    const int sides =
-        std::max(8, static_cast<int>(std::lround(2.0 * std::numbers::pi * radius / spacing)));
+    for (std::size_t i = 1; i < profile.size(); ++i) length += (profile[i] - profile[i - 1]).norm();
+    return length;
+}
 
+double largest_radius(const std::vector<Eigen::Vector2d>& profile) {
+    double radius = 0.0;
+    for (const Eigen::Vector2d& point : profile) radius = std::max(radius, point.x());
+    return radius;
+}
+
+/// Length of a mesh edge that gives about `faces` triangles of even size.
+double lathe_spacing(const std::vector<Eigen::Vector2d>& profile, bool closed, std::size_t faces) {
+    const double area = outline_length(profile, closed) * largest_radius(profile);
+    return std::sqrt(4.0 * std::numbers::pi * area / static_cast<double>(faces));
+}
+
+/// Rings of regular polygons through the points, each turned about z [rad], joined by bands.
+TriangleMesh turned_rings(const std::vector<Eigen::Vector2d>& points,
+                          const std::vector<double>& turns, int sides, bool closed) {
     TriangleMesh mesh;
     std::vector<std::vector<std::uint32_t>> rings;  // one vertex on the axis, else `sides`
-    for (const Eigen::Vector2d& point : points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Eigen::Vector2d& point = points[i];
         std::vector<std::uint32_t>& ring = rings.emplace_back();
         for (int s = 0; s < (point.x() > 0.0 ? sides : 1); ++s) {
-            const double angle = 2.0 * std::numbers::pi * s / sides;
+            const double angle = 2.0 * std::numbers::pi * s / sides + turns[i];
             ring.push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
             mesh.vertices.emplace_back(point.x() * std::cos(angle), point.x() * std::sin(angle),
                                        point.y());
@@ -190,6 +181,57 @@ TriangleMesh lathe(const std::vector<Eigen::Vector2d>& profile, bool closed, std
         for (Triangle& face : mesh.faces) std::swap(face[1], face[2]);
     }
     return mesh;
+}
+
+std::map<std::pair<std::uint32_t, std::uint32_t>, int> directed_counts(const TriangleMesh& mesh) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> counts;
+    for (const Triangle& face : mesh.faces) {
+        for (std::size_t k = 0; k < 3; ++k) ++counts[{face[k], face[(k + 1) % 3]}];
+    }
+    return counts;
+}
+
+}  // namespace
+
+TriangleMesh grid_solid(const std::array<std::vector<double>, 3>& lines,
+                        const std::function<bool(int, int, int)>& filled, std::size_t faces) {
+    const TriangleMesh coarse = grid_surface(lines, filled, 1e9);
+    if (coarse.faces.size() >= faces) return coarse;
+    // A square of side s carries two triangles.
+    const double spacing = std::sqrt(2.0 * area_m2(coarse) / static_cast<double>(faces));
+    return grid_surface(lines, filled, spacing);
+}
+
+TriangleMesh lathe(const std::vector<Eigen::Vector2d>& profile, bool closed, std::size_t faces) {
+    const std::vector<Eigen::Vector2d> points =
+        divide_profile(profile, closed, lathe_spacing(profile, closed, faces));
+    const std::vector<double> turns(points.size(), 0.0);
+    return turned_rings(points, turns, lathe_sides(profile, closed, faces), closed);
+}
+
+int lathe_sides(const std::vector<Eigen::Vector2d>& profile, bool closed, std::size_t faces) {
+    const double around = 2.0 * std::numbers::pi * largest_radius(profile);
+    const double spacing = lathe_spacing(profile, closed, faces);
+    return std::max(8, static_cast<int>(std::lround(around / spacing)));
+}
+
+TriangleMesh twisted_lathe(const std::vector<Eigen::Vector2d>& profile, int sides,
+                           std::size_t faces, std::uint64_t seed) {
+    const double rings = static_cast<double>(faces) / (2.0 * sides);
+    double spacing = outline_length(profile, false) / rings;
+    std::vector<Eigen::Vector2d> points = divide_profile(profile, false, spacing);
+    while (points.size() > profile.size() && static_cast<double>(points.size()) > rings) {
+        points = divide_profile(profile, false, spacing *= 1.1);  // short pieces stay whole
+    }
+    // A turn by a whole number of sides changes nothing but the corners' order, so half a side
+    // either way relative to the ring before is every angle.
+    std::mt19937_64 random(seed);
+    std::vector<double> turns{0.0};
+    while (turns.size() < points.size()) {
+        const double share = static_cast<double>(random() >> 11) * 0x1.0p-53 - 0.5;
+        turns.push_back(turns.back() + share * 2.0 * std::numbers::pi / sides);
+    }
+    return turned_rings(points, turns, sides, false);
 }
 
 double signed_volume_m3(const TriangleMesh& mesh) {

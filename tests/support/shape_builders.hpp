@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -20,6 +21,14 @@ TriangleMesh grid_solid(const std::array<std::vector<double>, 3>& lines,
 /// Rings are regular polygons whose corners lie on the true circles, so planar sides lie inside the
 /// true surface by up to R (1 - cos(pi / sides)). About `faces` triangles, closed, outward.
 TriangleMesh lathe(const std::vector<Eigen::Vector2d>& profile, bool closed, std::size_t faces);
+
+/// How many sides lathe's rings have.
+int lathe_sides(const std::vector<Eigen::Vector2d>& profile, bool closed, std::size_t faces);
+
+/// The same from axis to axis with the number of sides given, every ring turned by a random angle
+/// that the seed chooses. Each triangle's corners lie within 3 pi / sides about the axis.
+TriangleMesh twisted_lathe(const std::vector<Eigen::Vector2d>& profile, int sides,
+                           std::size_t faces, std::uint64_t seed);
 
 /// Volume by the divergence theorem [m^3]; positive when outward oriented.
 double signed_volume_m3(const TriangleMesh& mesh);

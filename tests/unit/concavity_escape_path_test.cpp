@@ -1,134 +1,128 @@
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <iostream>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
+#include "graspd/mesh/condition_mesh.hpp"
+#include "graspd/mesh/read_object.hpp"
 #include "support/concavity_answers.hpp"
 #include "support/concavity_run.hpp"
+#include "support/mesh_damage.hpp"
+#include "support/path_certificate.hpp"
 #include "support/shapes.hpp"
 
 namespace graspd {
 namespace {
 
 using Eigen::Vector3d;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// All triangles of a mesh under exact predicates.
-class ExactSurface {
-public:
-    explicit ExactSurface(const TriangleMesh& mesh) {
-        for (const Triangle& face : mesh.faces) {
-            triangles_.emplace_back(point(mesh.vertices[face[0]]), point(mesh.vertices[face[1]]),
-                                    point(mesh.vertices[face[2]]));
-        }
-        tree_.rebuild(triangles_.begin(), triangles_.end());
+/// None of it is the program's own ray test: every segment of every way is free under exact
+/// predicates, the ways end on the hull and are as long as the values say, and what is called exact
+/// is the distance to the nearest plane.
+void expect_certified(const std::string& name, const TriangleMesh& mesh) {
+    const test::ConcavityRun run = test::run_concavity(mesh);
+    const test::PathCertificate found = test::certify_paths(mesh, run, test::ExactSurface(mesh));
+    EXPECT_EQ(found.blocked, 0u) << "of " << found.segments << " segments";
+    EXPECT_EQ(found.wrong_lengths, 0u) << "of " << found.paths << " paths";
+    EXPECT_EQ(found.wrong_ends, 0u) << "of " << found.paths << " paths";
+    EXPECT_EQ(found.strayed, 0u) << "of " << found.paths << " paths";
+    EXPECT_EQ(found.not_exact, 0u) << "of " << found.exact << " vertices flagged exact";
+    EXPECT_LE(100 * found.enclosed, found.vertices) << "nothing to certify";
+    if (found.first_bad != test::PathCertificate::kNone) {
+        ADD_FAILURE() << name << ": vertex " << found.first_bad << " at "
+                      << mesh.vertices[found.first_bad].transpose() << ", value "
+                      << run.field.value_m[found.first_bad];
     }
-    bool blocks(const Vector3d& a, const Vector3d& b) const {
-        return tree_.do_intersect(Kernel::Segment_3(point(a), point(b)));
-    }
-
-private:
-    using Triangles = std::vector<Kernel::Triangle_3>;
-    using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::iterator>;
-
-    static Kernel::Point_3 point(const Vector3d& p) { return {p.x(), p.y(), p.z()}; }
-
-    Triangles triangles_;
-    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree_;
-};
-
-/// Where ways run: the vertices lifted off the surface along the mean of their faces' normals,
-/// weighted by angle. Worked out here anew.
-std::vector<Vector3d> lifted(const TriangleMesh& mesh, double by_m) {
-    std::vector<Vector3d> normals(mesh.vertices.size(), Vector3d::Zero());
-    for (const Triangle& face : mesh.faces) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vector3d a = mesh.vertices[face[(k + 1) % 3]] - mesh.vertices[face[k]];
-            const Vector3d b = mesh.vertices[face[(k + 2) % 3]] - mesh.vertices[face[k]];
-            const double angle = std::acos(a.normalized().dot(b.normalized()));
-            normals[face[k]] += angle * a.cross(b).normalized();
-        }
-    }
-    std::vector<Vector3d> points = mesh.vertices;
-    for (std::size_t v = 0; v < points.size(); ++v) points[v] += by_m * normals[v].normalized();
-    return points;
+    EXPECT_GE(found.segments, found.paths);
+    std::cout << name << ", " << mesh.faces.size() << " faces: " << found.segments << " segments, "
+              << found.blocked << " blocked; "
+              << 100.0 * static_cast<double>(found.exact) / static_cast<double>(found.vertices)
+              << " % proven exact\n";
 }
 
-struct Tally {
-    std::size_t segments = 0, blocked = 0, wrong_lengths = 0, wrong_ends = 0;
-};
-
-/// Walks every vertex's way by its parents and by escape_path, and tests each first segment (the
-/// later ones are some bend's own first). The last one ends a lift short of the hull's plane, as
-/// the object's own sides may lie in that.
-Tally check_ways(const TriangleMesh& mesh, const test::ConcavityRun& run) {
-    const ConcavityConfig config;
-    const double lift_m = config.start_offset * mesh_diagonal_m(mesh);
-    const std::vector<Vector3d> start = lifted(mesh, lift_m);
-    const ExactSurface surface(mesh);
-    Tally tally;
-    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-        const double value_m = run.field.value_m[v];
-        if (!std::isfinite(value_m) || value_m < 2.0 * lift_m) continue;
-        const std::int32_t parent = run.field.parent[v];
-        Vector3d end;
-        if (parent >= 0) {
-            end = start[static_cast<std::size_t>(parent)];
-        } else {
-            const HullFacet& facet = run.hull.facets[static_cast<std::size_t>(-1 - parent)];
-            const double gap_m = facet.offset_m - facet.normal.dot(start[v]) - lift_m;
-            end = start[v] + std::max(0.0, gap_m) * facet.normal;
-        }
-        ++tally.segments;
-        tally.blocked += surface.blocks(start[v], end);
-        const auto path = escape_path(mesh, run.hull, run.field, v);
-        double length_m = 0.0;
-        for (std::size_t i = 0; i + 1 < path.size(); ++i)
-            length_m += (path[i + 1] - path[i]).norm();
-        tally.wrong_lengths += !(std::abs(length_m - value_m) < 1e-9 * value_m);
-        double outside_m = -1.0;  // the end lies on the hull's surface or a little outside it
-        for (const HullFacet& facet : run.hull.facets) {
-            outside_m = std::max(outside_m, facet.normal.dot(path.back()) - facet.offset_m);
-        }
-        tally.wrong_ends += path.front() != mesh.vertices[v] || outside_m < -1e-9 * value_m;
-    }
-    return tally;
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+    std::string name = info.param.substr(0, info.param.find('.'));
+    std::ranges::replace(name, ' ', '_');
+    return name;
 }
 
-// Every value above the lift is the length of a way that exact predicates find free; none of it is
-// the program's own ray test. The ways end on the hull.
-TEST(EscapePath, NoSegmentIsBlocked) {
-    std::size_t segments = 0;
+class WaysOfShape : public testing::TestWithParam<std::string> {};
+
+TEST_P(WaysOfShape, AreFreeUnderExactPredicates) {
     for (const std::size_t faces : {1000u, 5000u}) {
-        auto answers = test::straight_answers(faces);
-        for (auto& bent : test::bent_answers(faces)) answers.push_back(std::move(bent));
-        for (const test::ConcavityAnswer& answer : answers) {
-            SCOPED_TRACE(answer.name + " of " + std::to_string(faces));
-            const TriangleMesh mesh = test::moved(answer.mesh, test::random_pose(faces));
-            const Tally tally = check_ways(mesh, test::run_concavity(mesh));
-            EXPECT_EQ(tally.blocked, 0u);
-            EXPECT_EQ(tally.wrong_lengths, 0u);
-            EXPECT_EQ(tally.wrong_ends, 0u);
-            segments += tally.segments;
-        }
+        const test::ConcavityAnswer answer = test::concavity_answer(GetParam(), faces);
+        expect_certified(answer.name, test::moved(answer.mesh, test::random_pose(faces)));
     }
-    EXPECT_GT(segments, 10000u);
 }
 
-TEST(EscapePath, NoSegmentIsBlockedInALargeMesh) {
-    for (const test::ConcavityAnswer& answer : test::bent_answers(70000)) {
-        SCOPED_TRACE(answer.name);
-        const TriangleMesh mesh = test::moved(answer.mesh, test::random_pose(7));
-        const Tally tally = check_ways(mesh, test::run_concavity(mesh));
-        EXPECT_EQ(tally.blocked, 0u);
-        EXPECT_EQ(tally.wrong_lengths, 0u);
-        EXPECT_GT(tally.segments, 10000u);
-    }
+INSTANTIATE_TEST_SUITE_P(EscapePath, WaysOfShape, testing::ValuesIn(test::answer_names()),
+                         test_name);
+
+class WaysOfLargeShape : public testing::TestWithParam<std::string> {};
+
+TEST_P(WaysOfLargeShape, AreFreeUnderExactPredicates) {
+    const test::ConcavityAnswer answer = test::concavity_answer(GetParam(), 70000);
+    expect_certified(answer.name, test::moved(answer.mesh, test::random_pose(7)));
+}
+
+INSTANTIATE_TEST_SUITE_P(EscapePath, WaysOfLargeShape,
+                         testing::Values("undercut channel", "labyrinth", "tunnel_3d",
+                                         "twisted vase"),
+                         test_name);
+
+class WaysOfScan : public testing::TestWithParam<std::string> {};
+
+TEST_P(WaysOfScan, AreFreeUnderExactPredicates) {
+    const auto file = read_object(GRASPD_SOURCE_DIR "/examples/objects/" + GetParam());
+    ASSERT_TRUE(file.ok()) << file.error().detail;
+    const auto closed = condition_mesh(std::get<TriangleMesh>(file.value().object), {});
+    ASSERT_TRUE(closed.ok()) << closed.error().detail;
+    expect_certified(GetParam(), closed.value().mesh);
+}
+
+INSTANTIATE_TEST_SUITE_P(EscapePath, WaysOfScan,
+                         testing::Values("hammer.ply", "koala_bear.obj", "stacking_cup.ply"),
+                         test_name);
+
+// What the certificate rests on: a segment that touches one corner of the surface is blocked, one
+// beside it is free; bars that cross intersect themselves, a closed shape does not.
+TEST(ExactSurface, TellsBlockedFromFree) {
+    const test::ExactSurface box(test::box({0.2, 0.2, 0.2}, 12));
+    EXPECT_TRUE(box.blocks({0.0, 0.0, 0.0}, {0.0, 0.0, 0.3}));
+    EXPECT_TRUE(box.blocks({0.1, 0.1, 0.1}, {0.3, 0.3, 0.3}));
+    EXPECT_FALSE(box.blocks({0.1, 0.1, std::nextafter(0.1, 1.0)}, {0.3, 0.3, 0.3}));
+    EXPECT_FALSE(box.blocks({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0999}));
+    const TriangleMesh bar = test::box({0.3, 0.04, 0.04}, 400);
+    EXPECT_FALSE(test::intersects_itself(bar));
+    EXPECT_TRUE(test::intersects_itself(test::joined(bar, test::box({0.04, 0.3, 0.03}, 400))));
+}
+
+// A certificate that cannot fail is none: each falsehood in a sound field shows up in its count.
+TEST(PathCertificate, FindsWhatIsWrong) {
+    const test::ConcavityAnswer channel = test::concavity_answer("undercut channel", 1000);
+    const test::ExactSurface surface(channel.mesh);
+    const test::ConcavityRun sound = test::run_concavity(channel.mesh);
+    std::uint32_t v = 0;  // whose way bends
+    while (sound.field.parent[v] < 0) ++v;
+    const std::int32_t facet = sound.field.parent[static_cast<std::size_t>(sound.field.parent[v])];
+    ASSERT_LT(facet, 0);
+
+    test::ConcavityRun through_the_lid = sound;  // to the bend's hull plane straight
+    const HullFacet& top = sound.hull.facets[static_cast<std::size_t>(-1 - facet)];
+    through_the_lid.field.parent[v] = facet;
+    through_the_lid.field.value_m[v] = top.offset_m - top.normal.dot(channel.mesh.vertices[v]);
+    test::PathCertificate found = test::certify_paths(channel.mesh, through_the_lid, surface);
+    EXPECT_GT(found.blocked, 0u);
+    EXPECT_EQ(found.first_bad, v);
+
+    test::ConcavityRun shortened = sound;
+    shortened.field.value_m[v] *= 0.999;
+    EXPECT_EQ(test::certify_paths(channel.mesh, shortened, surface).wrong_lengths, 1u);
+
+    test::ConcavityRun called_exact = sound;
+    called_exact.field.flag[v] = ConcavityFlag::kExact;
+    EXPECT_EQ(test::certify_paths(channel.mesh, called_exact, surface).not_exact, 1u);
 }
 
 // From beneath the lid of an undercut channel: the vertex, the slot's lower edge, straight up to
