@@ -82,7 +82,33 @@ BendSlider::Chain BendSlider::chain_of(std::uint32_t vertex) const {
     return chain;
 }
 
-/// For each bend at a vertex the mesh edge along which the way shortens fastest.
+/// Whether a string keeps its bend on an edge: the edge is convex, both ends of the string leave the
+/// solid, and their pull presses the bend onto it.
+/// @param place          of the edge among those that leave the bend's vertex
+/// @param before, after  unit vectors to where the string comes from and goes
+bool BendSlider::holds(const Bend& bend, std::size_t place, const Eigen::Vector3d& before,
+                       const Eigen::Vector3d& after) const {
+    constexpr double kSlack = 1e-4;  // sine: a string may run in a face's plane
+    const std::uint32_t to = ground_.neighbours.of(bend.from)[place];
+    const auto back = ground_.neighbours.of(to);
+    const auto twin = std::ranges::find(back, bend.from) - back.begin();
+    if (twin == static_cast<std::ptrdiff_t>(back.size())) return false;
+    const TriangleMesh& mesh = ground_.mesh;
+    const Eigen::Vector3d left = face_normal(mesh, ground_.neighbours.faces_of(bend.from)[place]);
+    const Eigen::Vector3d right =
+        face_normal(mesh, ground_.neighbours.faces_of(to)[static_cast<std::size_t>(twin)]);
+    const Eigen::Vector3d along =
+        (mesh.vertices[to] - mesh.vertices[bend.from]).stableNormalized();
+    if (left.dot(along.cross(right)) > kSlack) return false;  // concave
+    const auto leaves = [&](const Eigen::Vector3d& direction) {
+        return direction.dot(left) >= -kSlack || direction.dot(right) >= -kSlack;
+    };
+    const Eigen::Vector3d pull = before + after;
+    return leaves(before) && leaves(after) && pull.dot(left) <= kSlack &&
+           pull.dot(right) <= kSlack;
+}
+
+/// For each bend at a vertex the edge that holds it and along which the way shortens fastest.
 void BendSlider::choose_edges(Chain& chain) const {
     for (std::size_t i = 0; i < chain.bends.size(); ++i) {
         Bend& bend = chain.bends[i];
@@ -91,21 +117,23 @@ void BendSlider::choose_edges(Chain& chain) const {
         bend.share = 0.0;
         bend.to = bend.from;
         const bool is_last = i + 1 == chain.bends.size();
-        Eigen::Vector3d pull = (chain.before(i) - bend.point).stableNormalized();
-        if (!is_last || chain.facet == nullptr) {
-            const Eigen::Vector3d& next = is_last ? chain.end : chain.bends[i + 1].point;
-            pull += (next - bend.point).stableNormalized();
+        const Eigen::Vector3d before = (chain.before(i) - bend.point).stableNormalized();
+        Eigen::Vector3d after = Eigen::Vector3d::Zero();
+        if (is_last && chain.facet != nullptr) {
+            after = chain.facet->normal;
         } else {
-            pull += chain.facet->normal;
+            const Eigen::Vector3d& next = is_last ? chain.end : chain.bends[i + 1].point;
+            after = (next - bend.point).stableNormalized();
         }
         constexpr double kTaut = 1e-7;  // sine of the angle that counts as none
         double best = kTaut;
-        for (const std::uint32_t u : ground_.neighbours.of(bend.from)) {
-            const double gain =
-                pull.dot((ground_.mesh.vertices[u] - bend.point).stableNormalized());
-            if (gain <= best) continue;
+        const auto neighbours = ground_.neighbours.of(bend.from);
+        for (std::size_t place = 0; place < neighbours.size(); ++place) {
+            const Eigen::Vector3d& there = ground_.mesh.vertices[neighbours[place]];
+            const double gain = (before + after).dot((there - bend.point).stableNormalized());
+            if (gain <= best || !holds(bend, place, before, after)) continue;
             best = gain;
-            bend.to = u;
+            bend.to = neighbours[place];
         }
     }
 }

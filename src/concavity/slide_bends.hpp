@@ -52,6 +52,8 @@ private:
     };
 
     Chain chain_of(std::uint32_t vertex) const;
+    bool holds(const Bend& bend, std::size_t place, const Eigen::Vector3d& before,
+               const Eigen::Vector3d& after) const;
     void choose_edges(Chain& chain) const;
     bool settle(Chain& chain) const;
     void place(Chain& chain, std::size_t i) const;

@@ -31,9 +31,14 @@ VertexNeighbours::VertexNeighbours(const TriangleMesh& mesh) : start_(mesh.verti
     std::uint32_t end = 0;
     for (std::uint32_t& row : start_) row = end += row;
     neighbour_.resize(end);
+    face_.resize(end);
     for (std::size_t f = mesh.faces.size(); f-- > 0;) {
         const Triangle& face = mesh.faces[f];
-        for (std::size_t k = 0; k < 3; ++k) neighbour_[--start_[face[k]]] = face[(k + 1) % 3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t place = --start_[face[k]];
+            neighbour_[place] = face[(k + 1) % 3];
+            face_[place] = static_cast<std::uint32_t>(f);
+        }
     }
 }
 

@@ -19,8 +19,13 @@ public:
         return {neighbour_.data() + start_[vertex], start_[vertex + 1] - start_[vertex]};
     }
 
+    /// The face on the left of each outgoing half-edge, in the order of `of`.
+    std::span<const std::uint32_t> faces_of(std::uint32_t vertex) const {
+        return {face_.data() + start_[vertex], start_[vertex + 1] - start_[vertex]};
+    }
+
 private:
-    std::vector<std::uint32_t> start_, neighbour_;
+    std::vector<std::uint32_t> start_, neighbour_, face_;
 };
 
 /// Per vertex the unit mean of its faces' normals, each weighted by its angle there (Baerentzen and

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "support/tested_path.hpp"
-
 namespace graspd::test {
 namespace {
 
@@ -85,7 +83,6 @@ PathCertificate certify_paths(const TriangleMesh& mesh, const ConcavityRun& run,
                               const ExactSurface& surface) {
     const double diagonal_m = mesh_diagonal_m(mesh);
     const double lift_m = ConcavityConfig{}.start_offset * diagonal_m;
-    const TestedPaths tested_paths(mesh, run.hull, run.field);
     SegmentMemory memory(surface);
     PathCertificate count;
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -97,7 +94,7 @@ PathCertificate certify_paths(const TriangleMesh& mesh, const ConcavityRun& run,
         if (!std::isfinite(value_m) || value_m < 2.0 * lift_m) continue;
         ++count.paths;
         const std::vector<Vector3d> path = escape_path(mesh, run.hull, run.field, v);
-        const std::vector<Vector3d> tested = tested_paths.path(v);
+        const std::vector<Vector3d> tested = tested_path(mesh, run.hull, run.field, v);
         // Rounding of coordinates a thousand diagonals away is 1e-13 of the diagonal.
         const double rounding_m = 1e-9 * value_m + 1e-12 * diagonal_m;
         const bool blocked = memory.blocks(tested, count);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "graspd/concavity/shortest_path_concavity.hpp"
-#include "support/tested_path.hpp"
+#include "support/lifted_vertices.hpp"
 
 namespace graspd::test {
 namespace {
