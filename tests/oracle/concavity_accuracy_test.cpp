@@ -53,19 +53,12 @@ struct NamedPose {
     Eigen::Isometry3d X_new_old;
 };
 
-/// At 70k faces the turned pose alone, and the far one for shapes with bends in edges and with
-/// perpendiculars that run along edges.
-std::vector<NamedPose> poses(const Case& c, double diagonal_m) {
+std::vector<NamedPose> poses(double diagonal_m) {
     Eigen::Isometry3d far = test::random_pose(12);
     far.pretranslate(1000.0 * diagonal_m * Vector3d(0.6, -0.64, 0.48));
-    const NamedPose turned{"turned", test::random_pose(11)};
-    if (c.faces < 70000) {
-        return {{"as built", Eigen::Isometry3d::Identity()}, turned, {"far away", far}};
-    }
-    if (c.shape == "tunnel_3d" || c.shape == "twisted vase" || c.shape == "cup") {
-        return {turned, {"far away", far}};
-    }
-    return {turned};
+    return {{"as built", Eigen::Isometry3d::Identity()},
+            {"turned", test::random_pose(11)},
+            {"far away", far}};
 }
 
 struct Expected {
@@ -128,7 +121,7 @@ class ConcavityAccuracy : public testing::TestWithParam<Case> {};
 TEST_P(ConcavityAccuracy, IsWithinATenthOfAPercent) {
     const test::ConcavityAnswer answer = test::concavity_answer(GetParam().shape, GetParam().faces);
     const Expected expected = expected_of(answer);
-    for (const NamedPose& pose : poses(GetParam(), mesh_diagonal_m(answer.mesh))) {
+    for (const NamedPose& pose : poses(mesh_diagonal_m(answer.mesh))) {
         const test::ConcavityRun run =
             test::run_concavity(test::moved(answer.mesh, pose.X_new_old));
         ASSERT_EQ(run.field.value_m.size(), expected.low_m.size());

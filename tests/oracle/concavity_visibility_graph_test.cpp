@@ -126,7 +126,7 @@ TEST_P(NoisyShapeAgainstGraph, IsNotLonger) {
 
 INSTANTIATE_TEST_SUITE_P(VisibilityGraph, NoisyShapeAgainstGraph,
                          testing::Values(NoisyCase{"tunnel_3d", 1000}, NoisyCase{"tunnel_3d", 5000},
-                                         NoisyCase{"vase", 1000}, NoisyCase{"vase", 5000}),
+                                         NoisyCase{"vase", 1000}, NoisyCase{"vase", 3000}),
                          [](const auto& its) {
                              return its.param.shape + ("_" + std::to_string(its.param.faces));
                          });

@@ -6,8 +6,8 @@
 
 namespace graspd::test {
 
-// Blocks with a square blind tunnel, 20 mm wide, that starts in the middle of the top (the plane
-// z = 0) and turns twice. All walls are 20 mm or thicker. The hull is the block, and out of the
+// Blocks with a square blind tunnel, 20 mm wide, that starts in the top (the plane z = 0) and turns
+// twice. All walls are 20 mm or thicker. The hull is the block, and out of the
 // tunnel there is no other way than through its mouth.
 
 /// Down, along +x, down again: the turns lie in the plane y = 0. Closed, outward oriented.

@@ -68,7 +68,7 @@ TriangleMesh twisted_vase(std::size_t faces, std::uint64_t seed);
 /// free.
 class VaseAnswer {
 public:
-    /// @param mesh  a vase; its profile has `parts`, its rings `sides`
+    /// @param parts  of a quarter of the lip, as in the profile; @param sides  of every ring
     VaseAnswer(int parts, int sides, bool twisted);
     double lowest_m(const Eigen::Vector3d& vertex) const;
     double highest_m(const Eigen::Vector3d& vertex) const;
