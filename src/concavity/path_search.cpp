@@ -27,19 +27,24 @@ constexpr int kProbeRounds = 4;  // a region may be reached through another one 
 
 // Bent ways are shortened by looking around from so many vertices, each in a few of the directions,
 // and by the bends that most ways use and the nearest planes, of which each vertex tries a few.
-constexpr std::size_t kLookouts = 1024;
-constexpr int kLookoutRays = 4, kBendRays = 8;
+constexpr std::size_t kLookouts = 1024, kBendLookouts = 128;
+constexpr int kLookoutRays = 4;
 constexpr std::size_t kPoolBends = 512;
 constexpr std::size_t kTries = 12, kMostTries = 64;  // the latter for bends, which serve many ways
+constexpr int kBendRounds = 3;
 constexpr double kLeastGain = 1e-4;    // [1] of the value
 constexpr double kBesideFacet = 0.01;  // [1] of the diagonal: how far from a facet a foot may lie
 
 using Entry = std::pair<double, std::int32_t>;  ///< length [m] through a parent, the parent
 
 /// Directions spread evenly over the sphere: equal steps in height, golden angles between them.
-Eigen::Vector3d probe_direction(int index) {
-    const double z = 1.0 - (2.0 * index + 1.0) / kProbeDirections;
-    const double angle = std::numbers::pi * (3.0 - std::sqrt(5.0)) * index;
+/// Each lookout has its own set, turned and shifted against the others'.
+Eigen::Vector3d probe_direction(std::size_t lookout, int index) {
+    constexpr double kGolden = 0.6180339887498949;
+    const double turn = kGolden * static_cast<double>(lookout);
+    const double shift = turn - std::floor(turn);  // in [0, 1)
+    const double z = 1.0 - 2.0 * (index + shift) / kProbeDirections;
+    const double angle = std::numbers::pi * ((3.0 - std::sqrt(5.0)) * index + 2.0 * turn);
     const double r = std::sqrt(1.0 - z * z);
     return {r * std::cos(angle), r * std::sin(angle), z};
 }
@@ -197,11 +202,12 @@ std::vector<std::uint32_t> PathSearch::unreached_region(std::uint32_t seed,
 
 /// Looks from v in `count` of the directions that lead off the surface: a free ray proposes the
 /// plane it leaves the hull by, another one what it meets.
-bool PathSearch::look_around(std::uint32_t v, int first, int count, Way& way) {
+bool PathSearch::look_around(std::uint32_t v, std::size_t lookout, int count, Way& way) {
     constexpr int kStep = 13;  // any odd number visits every direction
     bool improved = false;
     for (int k = 0; k < kProbeDirections && count > 0; ++k) {
-        const Eigen::Vector3d direction = probe_direction((first + k * kStep) % kProbeDirections);
+        const int index = k * kStep % kProbeDirections;
+        const Eigen::Vector3d direction = probe_direction(lookout, index);
         if (direction.dot(ground_.normals[v]) <= 0.0) continue;
         --count;
         const auto hit = bvh_.first_hit(ground_.lifted[v], direction, ground_.diagonal_m);
@@ -228,7 +234,7 @@ bool PathSearch::probe_unreached() {
         for (std::size_t i = 0; i < region.size() && probes_ < kMostProbes; i += step) {
             Way way = known(region[i]);
             probes_ += kProbeDirections;
-            if (look_around(region[i], 0, kProbeDirections, way)) accept(region[i], way);
+            if (look_around(region[i], i, kProbeDirections, way)) accept(region[i], way);
         }
     }
     return !queue_.empty();
@@ -377,7 +383,8 @@ void PathSearch::consider_planes(std::uint32_t v, Way& way) {
 }
 
 /// Searches a better way for each vertex on its own, then takes what was found.
-void PathSearch::improve(
+/// @return whether any vertex' way got shorter
+bool PathSearch::improve(
     const std::vector<std::uint32_t>& vertices,
     const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search) {
     std::vector<Way> ways(vertices.size());
@@ -387,26 +394,37 @@ void PathSearch::improve(
             search(vertices[i], i, ways[i]);
         }
     });
-    for (std::size_t i = 0; i < vertices.size(); ++i) accept(vertices[i], ways[i]);
+    bool shorter = false;
+    for (std::size_t i = 0; i < vertices.size(); ++i) shorter |= accept(vertices[i], ways[i]);
+    return shorter;
+}
+
+/// Shortens the ways of the bends that most ways use. @return whether any got shorter
+bool PathSearch::shorten_bends() {
+    const Pool pool = most_used();
+    std::vector<std::uint32_t> bends;
+    for (const std::int32_t bend : pool.bends) {
+        const auto v = static_cast<std::uint32_t>(bend);
+        if (field_.flag[v] == ConcavityFlag::kPath) bends.push_back(v);
+    }
+    const std::size_t stride = 1 + bends.size() / kBendLookouts;
+    const bool shorter = improve(bends, [&](std::uint32_t v, std::size_t place, Way& way) {
+        consider_planes(v, way);
+        consider_pool(v, pool, kMostTries, way);
+        if (place % stride == 0) look_around(v, place, kProbeDirections, way);
+    });
+    propagate();
+    return shorter;
 }
 
 /// Step 4: the next bend may lie across the void, where no mesh edge leads. First the bends' own
-/// ways, which many share, then every vertex'.
+/// ways, which many share and which build on each other, then every vertex', then those of the
+/// bends once more, as some lead over vertices whose ways have just become shorter.
 void PathSearch::shorten_across_the_void() {
     const std::vector<std::uint32_t> bent = bent_vertices();
     if (bent.empty()) return;
-    const Pool bends = most_used();
-    std::vector<std::uint32_t> bent_bends;
-    for (const std::int32_t bend : bends.bends) {
-        const auto v = static_cast<std::uint32_t>(bend);
-        if (field_.flag[v] == ConcavityFlag::kPath) bent_bends.push_back(v);
+    for (int round = 0; round < kBendRounds && shorten_bends(); ++round) {
     }
-    improve(bent_bends, [&](std::uint32_t v, std::size_t place, Way& way) {
-        consider_planes(v, way);
-        consider_pool(v, bends, kMostTries, way);
-        look_around(v, static_cast<int>(place), kBendRays, way);
-    });
-    propagate();
     const std::size_t stride = 1 + bent.size() / kLookouts;
     const Pool pool = most_used();
     improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {
@@ -415,9 +433,10 @@ void PathSearch::shorten_across_the_void() {
         }
         consider_planes(v, way);
         consider_pool(v, pool, kTries, way);
-        if (place % stride == 0) look_around(v, static_cast<int>(place), kLookoutRays, way);
+        if (place % stride == 0) look_around(v, place, kLookoutRays, way);
     });
     propagate();
+    shorten_bends();
 }
 
 /// Step 5: bends slide along mesh edges.

@@ -57,7 +57,7 @@ private:
     void propagate();
 
     std::vector<std::uint32_t> unreached_region(std::uint32_t seed, std::vector<char>& seen) const;
-    bool look_around(std::uint32_t v, int first, int count, Way& way);
+    bool look_around(std::uint32_t v, std::size_t lookout, int count, Way& way);
     bool probe_unreached();
 
     std::vector<std::uint32_t> bent_vertices() const;
@@ -66,7 +66,8 @@ private:
     void consider_listed(std::uint32_t v, const Shortlist& list, Way& way);
     void consider_planes(std::uint32_t v, Way& way);
     void consider_pool(std::uint32_t v, const Pool& pool, std::size_t tries, Way& way);
-    void improve(const std::vector<std::uint32_t>& vertices,
+    bool shorten_bends();
+    bool improve(const std::vector<std::uint32_t>& vertices,
                  const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search);
 
     const PathGround& ground_;

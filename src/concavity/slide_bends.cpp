@@ -8,10 +8,15 @@
 namespace graspd::concavity_detail {
 namespace {
 
-constexpr std::size_t kMostBends = 6;    // of a way that slide; what follows stays
-constexpr int kEdgeRounds = 8;           // a bend that reaches an edge's end goes on along another
+constexpr std::size_t kMostBends = 6;  // of a way that slide; what follows stays
+constexpr int kEdgeRounds = 8;         // a bend that reaches an edge's end goes on along another
+constexpr int kInsertions = 4;         // of bends where a slid way is blocked
+constexpr int kHoldBacks = 2;          // halvings of how far the bends slide
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 constexpr int kSettleRounds = 64;        // of bends in turn, until none moves
 constexpr double kSettled = 1e-9;        // [1] of the edge
+constexpr double kLeastLean = 0.1;       // sine; a flatter floor does not block the perpendicular
+constexpr double kLeastSlope = 0.5;      // cosine of a tilted way to the plane it leaves by
 constexpr int kTiltRounds = 6;           // halvings of the tilt
 constexpr double kLeastTiltGain = 1e-3;  // [1] of the value
 constexpr double kLeastGain = 1e-6;      // [1] of the value; less is not worth its rays
@@ -59,6 +64,14 @@ const Eigen::Vector3d& BendSlider::Chain::before(std::size_t i) const {
     return i == 0 ? start : bends[i - 1].point;
 }
 
+/// From bend i to what comes next [m]; straight out of the hull where that is its plane.
+Eigen::Vector3d BendSlider::Chain::after(std::size_t i) const {
+    const Eigen::Vector3d& at = bends[i].point;
+    if (i + 1 < bends.size()) return bends[i + 1].point - at;
+    if (facet == nullptr) return end - at;
+    return std::max(0.0, facet->offset_m - facet->normal.dot(at)) * facet->normal;
+}
+
 BendSlider::BendSlider(const PathGround& ground, const HullPlaneTree& planes,
                        const TriangleBvh& bvh, const ConcavityField& field)
     : ground_(ground), planes_(planes), bvh_(bvh), field_(field) {}
@@ -82,60 +95,67 @@ BendSlider::Chain BendSlider::chain_of(std::uint32_t vertex) const {
     return chain;
 }
 
-/// Whether a string keeps its bend on an edge: the edge is convex, both ends of the string leave the
-/// solid, and their pull presses the bend onto it.
-/// @param place          of the edge among those that leave the bend's vertex
-/// @param before, after  unit vectors to where the string comes from and goes
-bool BendSlider::holds(const Bend& bend, std::size_t place, const Eigen::Vector3d& before,
+/// Whether a string keeps its bend on an edge: the edge is convex, both ends of the string leave
+/// the solid there, and the straight way between them runs through it.
+/// @param place          of the edge among those that leave the vertex `from`
+/// @param before, after  where the string comes from and goes, from the bend [m]
+bool BendSlider::holds(std::uint32_t from, std::size_t place, const Eigen::Vector3d& before,
                        const Eigen::Vector3d& after) const {
-    constexpr double kSlack = 1e-4;  // sine: a string may run in a face's plane
-    const std::uint32_t to = ground_.neighbours.of(bend.from)[place];
+    constexpr double kLeaves = 0.1;    // sine: between vertices a string may dip below a face
+    constexpr double kPresses = 1e-5;  // sine: a string along a face does not press on it
+    const std::uint32_t to = ground_.neighbours.of(from)[place];
     const auto back = ground_.neighbours.of(to);
-    const auto twin = std::ranges::find(back, bend.from) - back.begin();
+    const auto twin = std::ranges::find(back, from) - back.begin();
     if (twin == static_cast<std::ptrdiff_t>(back.size())) return false;
     const TriangleMesh& mesh = ground_.mesh;
-    const Eigen::Vector3d left = face_normal(mesh, ground_.neighbours.faces_of(bend.from)[place]);
+    const Eigen::Vector3d left = face_normal(mesh, ground_.neighbours.faces_of(from)[place]);
     const Eigen::Vector3d right =
         face_normal(mesh, ground_.neighbours.faces_of(to)[static_cast<std::size_t>(twin)]);
-    const Eigen::Vector3d along =
-        (mesh.vertices[to] - mesh.vertices[bend.from]).stableNormalized();
-    if (left.dot(along.cross(right)) > kSlack) return false;  // concave
-    const auto leaves = [&](const Eigen::Vector3d& direction) {
-        return direction.dot(left) >= -kSlack || direction.dot(right) >= -kSlack;
+    const Eigen::Vector3d along = (mesh.vertices[to] - mesh.vertices[from]).stableNormalized();
+    if (left.dot(along.cross(right)) > 0.0) return false;  // concave
+    const double near = before.norm(), far = after.norm();
+    const auto leaves = [&](const Eigen::Vector3d& end, double length) {
+        return std::max(end.dot(left), end.dot(right)) >= -kLeaves * length;
     };
-    const Eigen::Vector3d pull = before + after;
-    return leaves(before) && leaves(after) && pull.dot(left) <= kSlack &&
-           pull.dot(right) <= kSlack;
+    if (!leaves(before, near) || !leaves(after, far)) return false;
+    // Shares of the straight way that lie below each face.
+    double first = 0.0, last = 1.0;
+    for (const Eigen::Vector3d& normal : {left, right}) {
+        const double low = before.dot(normal) + kPresses * near;
+        const double high = after.dot(normal) + kPresses * far;
+        if (low >= 0.0 && high >= 0.0) return false;
+        if (low > 0.0) first = std::max(first, low / (low - high));
+        if (high > 0.0) last = std::min(last, low / (low - high));
+    }
+    return first < last;
 }
 
 /// For each bend at a vertex the edge that holds it and along which the way shortens fastest.
-void BendSlider::choose_edges(Chain& chain) const {
+/// @return whether some bend has got one
+bool BendSlider::choose_edges(Chain& chain) const {
+    bool chosen = false;
     for (std::size_t i = 0; i < chain.bends.size(); ++i) {
         Bend& bend = chain.bends[i];
         if (bend.share > 0.0 && bend.share < 1.0) continue;
         if (bend.share >= 1.0) bend.from = bend.to;
         bend.share = 0.0;
         bend.to = bend.from;
-        const bool is_last = i + 1 == chain.bends.size();
-        const Eigen::Vector3d before = (chain.before(i) - bend.point).stableNormalized();
-        Eigen::Vector3d after = Eigen::Vector3d::Zero();
-        if (is_last && chain.facet != nullptr) {
-            after = chain.facet->normal;
-        } else {
-            const Eigen::Vector3d& next = is_last ? chain.end : chain.bends[i + 1].point;
-            after = (next - bend.point).stableNormalized();
-        }
+        const Eigen::Vector3d before = chain.before(i) - bend.point;
+        const Eigen::Vector3d after = chain.after(i);
+        const Eigen::Vector3d pull = before.stableNormalized() + after.stableNormalized();
         constexpr double kTaut = 1e-7;  // sine of the angle that counts as none
         double best = kTaut;
         const auto neighbours = ground_.neighbours.of(bend.from);
         for (std::size_t place = 0; place < neighbours.size(); ++place) {
             const Eigen::Vector3d& there = ground_.mesh.vertices[neighbours[place]];
-            const double gain = (before + after).dot((there - bend.point).stableNormalized());
-            if (gain <= best || !holds(bend, place, before, after)) continue;
+            const double gain = pull.dot((there - bend.point).stableNormalized());
+            if (gain <= best || !holds(bend.from, place, before, after)) continue;
             best = gain;
             bend.to = neighbours[place];
         }
+        chosen |= bend.to != bend.from;
     }
+    return chosen;
 }
 
 /// Moves one bend to where the way is shortest with the others held.
@@ -158,23 +178,24 @@ void BendSlider::place(Chain& chain, std::size_t i) const {
 }
 
 /// Moves the bends in turn until none moves: the length is convex, so they settle where all of them
-/// together make it least. @return whether one stands at the far end of its edge, or moved at all
-bool BendSlider::settle(Chain& chain) const {
-    bool at_end = false;
+/// together make it least.
+void BendSlider::settle(Chain& chain) const {
     for (int round = 0; round < kSettleRounds; ++round) {
         double moved = 0.0;
-        at_end = false;
         for (std::size_t i = 0; i < chain.bends.size(); ++i) {
             Bend& bend = chain.bends[i];
             if (bend.from == bend.to) continue;
             const double before = bend.share;
             place(chain, i);
             moved = std::max(moved, std::abs(bend.share - before));
-            at_end |= bend.share >= 1.0;
         }
-        if (moved <= kSettled) break;
+        if (moved <= kSettled) return;
     }
-    return at_end;
+}
+
+/// Slides all bends, from edge to edge, until none has an edge to go on along.
+void BendSlider::relax(Chain& chain) const {
+    for (int round = 0; round < kEdgeRounds && choose_edges(chain); ++round) settle(chain);
 }
 
 Eigen::Vector3d BendSlider::lifted(const Bend& bend) const {
@@ -185,31 +206,117 @@ Eigen::Vector3d BendSlider::lifted(const Bend& bend) const {
     return bend.point + ground_.offset_m * normal.stableNormalized();
 }
 
-bool BendSlider::is_free(std::uint32_t vertex, const Chain& chain) const {
-    Eigen::Vector3d at = ground_.lifted[vertex];
-    for (const Bend& bend : chain.bends) {
-        const Eigen::Vector3d next = lifted(bend);
-        if (bvh_.segment_blocked(at, next)) return false;
-        at = next;
+Eigen::Vector3d BendSlider::lifted_before(std::uint32_t vertex, const Chain& chain,
+                                          std::size_t i) const {
+    return i == 0 ? ground_.lifted[vertex] : lifted(chain.bends[i - 1]);
+}
+
+/// Whether the segment from a lifted point to bend i, or to what follows the last one, is free.
+bool BendSlider::sees(const Eigen::Vector3d& from, const Chain& chain, std::size_t i) const {
+    if (i < chain.bends.size()) return !bvh_.segment_blocked(from, lifted(chain.bends[i]));
+    if (chain.facet == nullptr) {
+        return !bvh_.segment_blocked(from, ground_.lifted[static_cast<std::size_t>(chain.parent)]);
     }
-    if (chain.facet != nullptr) {
-        return !bvh_.segment_blocked(at, beyond_plane(*chain.facet, at, ground_.offset_m));
+    return !bvh_.segment_blocked(from, beyond_plane(*chain.facet, from, ground_.offset_m));
+}
+
+/// The first segment that meets the surface: i ends at bend i; kNone where all are free.
+std::size_t BendSlider::first_blocked(std::uint32_t vertex, const Chain& chain) const {
+    for (std::size_t i = 0; i <= chain.bends.size(); ++i) {
+        if (!sees(lifted_before(vertex, chain, i), chain, i)) return i;
     }
-    return !bvh_.segment_blocked(at, ground_.lifted[static_cast<std::size_t>(chain.parent)]);
+    return kNone;
+}
+
+/// Takes out bends that no edge holds, now that the others have slid. @return whether there were
+/// any
+bool BendSlider::drop_bends(std::uint32_t vertex, Chain& chain) const {
+    bool dropped = false;
+    for (std::size_t i = 0; i < chain.bends.size();) {
+        constexpr double kStraight = 1e-6;  // sine of the turn
+        const Bend& bend = chain.bends[i];
+        const Eigen::Vector3d turn =
+            (chain.before(i) - bend.point).stableNormalized() + chain.after(i).stableNormalized();
+        const bool stuck = bend.from == bend.to && turn.norm() > kStraight;
+        if (stuck && sees(lifted_before(vertex, chain, i), chain, i + 1)) {
+            chain.bends.erase(chain.bends.begin() + static_cast<std::ptrdiff_t>(i));
+            dropped = true;
+        } else {
+            ++i;
+        }
+    }
+    return dropped;
+}
+
+/// Where the segment that ends at bend i dips below an edge beside it, puts a bend on that edge: a
+/// string that has slid off a vertex may lie over several of the vertex's edges.
+bool BendSlider::insert_bend(Chain& chain, std::size_t i) const {
+    if (i >= chain.bends.size() || chain.bends.size() >= 2 * kMostBends) return false;
+    const Eigen::Vector3d& from = chain.before(i);
+    const Eigen::Vector3d& to = chain.bends[i].point;
+    Bend best;
+    double deepest_m = 0.0;
+    const auto try_edges_at = [&](std::uint32_t hub) {
+        const auto neighbours = ground_.neighbours.of(hub);
+        for (std::size_t place = 0; place < neighbours.size(); ++place) {
+            const Eigen::Vector3d& base = ground_.mesh.vertices[hub];
+            const Eigen::Vector3d edge = ground_.mesh.vertices[neighbours[place]] - base;
+            const double length_m = edge.norm();
+            const double share = shortest_crossing(base, edge / length_m, from, to) / length_m;
+            constexpr double kEnd = 1e-3;
+            if (!(share > kEnd && share < 1.0 - kEnd)) continue;
+            const Eigen::Vector3d point = base + share * edge;
+            const double deep_m = (from - point).norm() + (to - point).norm() - (from - to).norm();
+            if (deep_m <= deepest_m || !holds(hub, place, from - point, to - point)) continue;
+            deepest_m = deep_m;
+            best = {hub, neighbours[place], share, point};
+        }
+    };
+    try_edges_at(chain.bends[i].from);
+    if (chain.bends[i].to != chain.bends[i].from) try_edges_at(chain.bends[i].to);
+    if (deepest_m == 0.0) return false;
+    chain.bends.insert(chain.bends.begin() + static_cast<std::ptrdiff_t>(i), best);
+    return true;
+}
+
+/// Moves bends that were at vertices back towards them.
+void BendSlider::hold_back(Chain& chain, double share) const {
+    for (Bend& bend : chain.bends) {
+        if (bend.from == bend.to) continue;
+        const Eigen::Vector3d& base = ground_.mesh.vertices[bend.from];
+        bend.share *= share;
+        bend.point = base + bend.share * (ground_.mesh.vertices[bend.to] - base);
+    }
 }
 
 SlidWay BendSlider::slide(std::uint32_t vertex) const {
     SlidWay way{std::numeric_limits<double>::infinity(), {}, 0};
     if (field_.parent[vertex] < 0) return way;
+    const double most_m = field_.value_m[vertex] * (1.0 - kLeastGain);
     Chain chain = chain_of(vertex);
-    const double known_m = field_.value_m[vertex];
-    for (int round = 0; round < kEdgeRounds; ++round) {
-        choose_edges(chain);
-        if (!settle(chain)) break;
+    relax(chain);
+    if (!(chain.length_m() < most_m)) return way;
+    if (drop_bends(vertex, chain)) relax(chain);
+    const Chain slid = chain;
+    std::size_t blocked = first_blocked(vertex, chain);
+    for (int round = 0; round < kInsertions && blocked != kNone; ++round) {
+        if (!insert_bend(chain, blocked)) break;
+        settle(chain);
+        relax(chain);
+        if (drop_bends(vertex, chain)) relax(chain);
+        blocked = first_blocked(vertex, chain);
     }
-    const double length_m = chain.length_m();
-    if (!(length_m < known_m * (1.0 - kLeastGain)) || !is_free(vertex, chain)) return way;
-    way.value_m = length_m;
+    double share = 1.0;
+    for (int round = 0; round < kHoldBacks && blocked != kNone; ++round) {
+        chain = slid;
+        hold_back(chain, share *= 0.5);
+        blocked = first_blocked(vertex, chain);
+    }
+    way.value_m = chain.length_m();
+    if (blocked != kNone || !(way.value_m < most_m)) {
+        way.value_m = std::numeric_limits<double>::infinity();
+        return way;
+    }
     way.parent = chain.parent;
     for (const Bend& bend : chain.bends) way.bends.push_back({bend.point, lifted(bend), 0});
     return way;
@@ -220,14 +327,15 @@ SlidWay BendSlider::tilt(std::uint32_t vertex) const {
     std::int32_t end = field_.parent[vertex];
     if (end < 0) return way;
     while (end >= 0) end = field_.parent[static_cast<std::size_t>(end)];
-    const Eigen::Vector3d& normal = planes_.facet(static_cast<std::uint32_t>(-1 - end)).normal;
+    const HullFacet& below = planes_.facet(static_cast<std::uint32_t>(-1 - end));
+    const Eigen::Vector3d& normal = below.normal;
     const Eigen::Vector3d& start = ground_.lifted[vertex];
-    const Eigen::Vector3d side =
-        (ground_.normals[vertex] - ground_.normals[vertex].dot(normal) * normal).stableNormalized();
-    const double depth_m = planes_.facet(static_cast<std::uint32_t>(-1 - end)).offset_m -
-                           normal.dot(ground_.mesh.vertices[vertex]);
+    Eigen::Vector3d side = ground_.normals[vertex] - ground_.normals[vertex].dot(normal) * normal;
+    const double lean = side.norm();  // sine of the wall's angle to the plane
+    const double depth_m = below.offset_m - normal.dot(ground_.mesh.vertices[vertex]);
     const double most_m = field_.value_m[vertex] * (1.0 - kLeastTiltGain);
-    if (!(depth_m < most_m) || side.isZero()) return way;
+    if (!(depth_m < most_m) || lean < kLeastLean) return way;
+    side /= lean;
     const auto direction = [&](double tangent) {
         return Eigen::Vector3d((normal + tangent * side).normalized());
     };
@@ -245,9 +353,10 @@ SlidWay BendSlider::tilt(std::uint32_t vertex) const {
     const std::uint32_t facet = planes_.exit(ground_.mesh.vertices[vertex], out);
     const HullFacet& plane = planes_.facet(facet);
     const double slope = plane.normal.dot(out);
+    if (!(slope > kLeastSlope)) return way;
     const double length_m =
         (plane.offset_m - plane.normal.dot(ground_.mesh.vertices[vertex])) / slope;
-    if (!(slope > 0.0 && length_m > 0.0 && length_m < most_m)) return way;
+    if (!(length_m > 0.0 && length_m < most_m)) return way;
     way.value_m = length_m;
     way.parent = -1 - static_cast<std::int32_t>(facet);
     const double tested_m = (plane.offset_m - plane.normal.dot(start) - ground_.offset_m) / slope;

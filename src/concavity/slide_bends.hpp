@@ -49,15 +49,22 @@ private:
 
         double length_m() const;
         const Eigen::Vector3d& before(std::size_t i) const;
+        Eigen::Vector3d after(std::size_t i) const;
     };
 
     Chain chain_of(std::uint32_t vertex) const;
-    bool holds(const Bend& bend, std::size_t place, const Eigen::Vector3d& before,
+    bool holds(std::uint32_t from, std::size_t place, const Eigen::Vector3d& before,
                const Eigen::Vector3d& after) const;
-    void choose_edges(Chain& chain) const;
-    bool settle(Chain& chain) const;
+    bool choose_edges(Chain& chain) const;
+    void settle(Chain& chain) const;
+    void relax(Chain& chain) const;
     void place(Chain& chain, std::size_t i) const;
-    bool is_free(std::uint32_t vertex, const Chain& chain) const;
+    Eigen::Vector3d lifted_before(std::uint32_t vertex, const Chain& chain, std::size_t i) const;
+    bool sees(const Eigen::Vector3d& from, const Chain& chain, std::size_t i) const;
+    bool drop_bends(std::uint32_t vertex, Chain& chain) const;
+    std::size_t first_blocked(std::uint32_t vertex, const Chain& chain) const;
+    bool insert_bend(Chain& chain, std::size_t i) const;
+    void hold_back(Chain& chain, double share) const;
     Eigen::Vector3d lifted(const Bend& bend) const;
 
     const PathGround& ground_;
