@@ -1,5 +1,6 @@
 #include "graspd/mesh/condition_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -51,6 +52,11 @@ std::optional<PlanError> check_values(const TriangleMesh& soup) {
         return error(PlanErrorCode::kInvalidInput, "mesh vertex ", i, " = (", vertex.x(), ", ",
                      vertex.y(), ", ", vertex.z(), ") is not finite");
     }
+    std::uint32_t highest = 0;
+    for (const Triangle& face : soup.faces) {
+        for (const std::uint32_t vertex : face) highest = std::max(highest, vertex);
+    }
+    if (highest < soup.vertices.size()) return std::nullopt;
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
         for (const std::uint32_t vertex : soup.faces[f]) {
             if (vertex < soup.vertices.size()) continue;
@@ -61,11 +67,19 @@ std::optional<PlanError> check_values(const TriangleMesh& soup) {
     return std::nullopt;
 }
 
-/// Diagonal of the box around the vertices that faces use [m].
-double diagonal_of(const TriangleMesh& soup) {
-    Eigen::AlignedBox3d box;
+std::vector<char> vertices_in_use(const TriangleMesh& soup) {
+    std::vector<char> in_use(soup.vertices.size(), 0);
     for (const Triangle& face : soup.faces) {
-        for (const std::uint32_t vertex : face) box.extend(soup.vertices[vertex]);
+        for (const std::uint32_t vertex : face) in_use[vertex] = 1;
+    }
+    return in_use;
+}
+
+/// Diagonal of the box around the vertices in use [m].
+double diagonal_of(const TriangleMesh& soup, const std::vector<char>& in_use) {
+    Eigen::AlignedBox3d box;
+    for (std::size_t i = 0; i < in_use.size(); ++i) {
+        if (in_use[i]) box.extend(soup.vertices[i]);
     }
     return box.diagonal().norm();
 }
@@ -96,30 +110,35 @@ void report_cleaning(const CleanFaces& clean, FindingList& findings) {
     findings.add("vertices_unreferenced", clean.unreferenced, " vertices belong to no kept face");
 }
 
+/// A closed surface's solid, and how many vertices close its holes.
+struct ClosedSolid {
+    SolidProperties solid;
+    std::uint32_t fill_vertices = 0;
+};
+
 /// Turns the faces that disagree with their patch, closes the holes, turns the surfaces outward.
-HoleFill close_and_orient(TriangleMesh& mesh, FindingList& findings) {
-    MeshEdges edges = collect_edges(mesh.faces);
+ClosedSolid close_and_orient(TriangleMesh& mesh, const MeshEdges& edges, FindingList& findings) {
     Orientation patches = orient_faces(mesh.faces, edges);
-    turn_faces(patches.flip, mesh.faces, edges);
     DisjointSets groups(patches.patches);
     const std::vector<OpenEdge> open = find_open_edges(mesh.faces, edges, patches, groups);
+    if (patches.flipped > 0) turn_faces(patches.flip, mesh.faces);
     const auto loops = walk_loops(open, mesh.vertices.size());
     const HoleFill fill = fill_holes(open, loops, mesh, patches.patch_of_face, groups);
-    const std::uint32_t turned = turn_outward(mesh, patches.patch_of_face, patches.patches, groups);
+    const OutwardSolid outward = turn_outward(mesh, patches.patch_of_face, patches.patches, groups);
 
-    std::size_t crowded = 0;
-    for (const MeshEdge& edge : edges.edges) crowded += edge.count > 2;
     findings.add("faces_flipped", patches.flipped, " faces were wound against their neighbours");
-    findings.add("holes_filled", static_cast<double>(loops.size()), " boundary loops closed, ",
-                 open.size(), " edges, fill is ",
-                 100.0 * fill.area_m2 / integrate_solid(mesh).area_m2, " % of the area");
-    findings.add("components_inverted", turned, " surfaces pointed inward");
-    findings.add("non_manifold_edges", static_cast<double>(crowded),
+    if (!loops.empty()) {
+        findings.add("holes_filled", static_cast<double>(loops.size()), " boundary loops closed, ",
+                     open.size(), " edges, fill is ", 100.0 * fill.area_m2 / surface_area_m2(mesh),
+                     " % of the area");
+    }
+    findings.add("components_inverted", outward.turned, " surfaces pointed inward");
+    findings.add("non_manifold_edges", static_cast<double>(edges.crowded_edges),
                  " edges have more than two faces");
-    const std::uint32_t components = count_components(mesh);
+    const std::uint32_t components = count_components(mesh, patches.patch_of_face, patches.patches);
     findings.add("components", components,
                  components == 1 ? " piece" : " pieces without a common vertex");
-    return fill;
+    return {outward.solid, fill.vertices};
 }
 
 std::optional<PlanError> check_solid(const SolidProperties& solid, double diagonal_m,
@@ -138,13 +157,14 @@ Result<ConditionedMesh> condition_mesh(const TriangleMesh& soup,
     if (auto bad = validate(config, "condition_mesh.")) return *bad;
     if (auto bad = check_counts(soup, config)) return *bad;
     if (auto bad = check_values(soup)) return *bad;
-    const double diagonal_m = diagonal_of(soup);
+    const std::vector<char> in_use = vertices_in_use(soup);
+    const double diagonal_m = diagonal_of(soup, in_use);
     if (!std::isfinite(diagonal_m)) {
         return error(PlanErrorCode::kInvalidInput, "mesh extent ", diagonal_m,
                      " m: its bounding box is too large to measure");
     }
     const bool exact = config.weld_tolerance < kLeastWeldTolerance;
-    CleanFaces clean = clean_faces(soup, exact ? 0.0 : config.weld_tolerance * diagonal_m);
+    CleanFaces clean = clean_faces(soup, in_use, exact ? 0.0 : config.weld_tolerance * diagonal_m);
     if (clean.mesh.faces.empty()) {
         return error(PlanErrorCode::kDegenerate, "all ", soup.faces.size(),
                      " faces of the mesh are degenerate (two equal corners)");
@@ -154,8 +174,8 @@ Result<ConditionedMesh> condition_mesh(const TriangleMesh& soup,
     report_cleaning(clean, findings);
     result.mesh = std::move(clean.mesh);
     result.vertex_of_input = std::move(clean.vertex_of_input);
-    result.fill_vertices = close_and_orient(result.mesh, findings).vertices;
-    const SolidProperties solid = integrate_solid(result.mesh);
+    const auto [solid, fill_vertices] = close_and_orient(result.mesh, clean.edges, findings);
+    result.fill_vertices = fill_vertices;
     if (auto bad = check_solid(solid, diagonal_m, config.min_solidity)) return *bad;
     result.volume_m3 = solid.volume_m3;
     result.center_of_mass = solid.center_of_mass;

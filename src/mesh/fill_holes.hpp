@@ -20,7 +20,7 @@ struct OpenEdge {
 /// Finds the half-edges without an opposite, each as often as it is missing one, and unites the
 /// patches that need one another at an edge with more than two faces. At every vertex as many of
 /// them end as start, because each face is a directed cycle.
-/// @param faces  oriented, and `edges` with them (turn_faces)
+/// @param faces  as `edges` saw them; open edges run as after turn_faces(patches.flip)
 std::vector<OpenEdge> find_open_edges(const std::vector<Triangle>& faces, const MeshEdges& edges,
                                       const Orientation& patches, DisjointSets& groups);
 
