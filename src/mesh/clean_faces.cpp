@@ -50,22 +50,20 @@ void keep_faces(const TriangleMesh& soup, const std::vector<std::uint32_t>& lead
     }
 }
 
-/// Faces that may have the corners of another one: two such faces lie across two of their edges
-/// from each other, or share a crowded edge. 1 marks them; empty when there are none.
+/// Faces that may have the corners of another one. Such a face has the other one alone across an
+/// edge, or the edge is crowded; of three edges two are of the same kind, and show the same number.
+/// 1 marks them; empty when there are none.
 std::vector<char> possible_duplicates(const MeshEdges& edges) {
     std::vector<char> marked;
     const std::size_t faces = edges.across.size() / 3;
-    const auto mark = [&](std::size_t face) {
-        marked.resize(faces, 0);
-        marked[face] = 1;
-    };
     for (std::size_t face = 0; face < faces; ++face) {
         const std::uint32_t* across = &edges.across[3 * face];
         const std::uint32_t a = across[0] / 3, b = across[1] / 3, c = across[2] / 3;
         if (a != b && b != c && c != a) continue;
-        if ((a == b ? a : c) != face) mark(face);  // else two open edges
+        if ((a == b ? a : c) == face) continue;  // two open edges
+        marked.resize(faces, 0);
+        marked[face] = 1;
     }
-    for (const CrowdedHalf& each : edges.crowded) mark(each.half / 3);
     return marked;
 }
 

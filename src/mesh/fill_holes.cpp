@@ -18,8 +18,8 @@ std::uint32_t turned(std::uint32_t half, const std::vector<char>& flip) {
 /// Finds open edges among faces some of which are about to be turned round.
 class OpenEdgeFinder {
 public:
-    OpenEdgeFinder(const std::vector<Triangle>& faces, const Orientation& patches)
-        : faces_(faces), patches_(patches) {}
+    OpenEdgeFinder(const TriangleMesh& mesh, const Orientation& patches)
+        : mesh_(mesh), faces_(mesh.faces), patches_(patches) {}
 
     /// Edges with one face, or with two that stay at odds.
     void add_simple(const MeshEdges& edges) {
@@ -31,6 +31,9 @@ public:
                 add(half, direction(half));
             } else if (edges.at_odds && direction(half) == direction(other)) {
                 add(half, 2 * direction(half));
+                open_.seam_m +=
+                    (mesh_.vertices[tail_of(faces_, half)] - mesh_.vertices[head_of(faces_, half)])
+                        .norm();
             }
         }
     }
@@ -47,7 +50,7 @@ public:
         }
     }
 
-    std::vector<OpenEdge> take() { return std::move(open_); }
+    OpenEdges take() { return std::move(open_); }
 
 private:
     std::uint32_t patch_of(std::uint32_t half) const { return patches_.patch_of_face[half / 3]; }
@@ -61,8 +64,8 @@ private:
     void add(std::uint32_t half, std::int64_t surplus, std::uint32_t patch = kNone) {
         if (patch == kNone) patch = patch_of(half);
         const auto [low, high] = std::minmax({tail_of(faces_, half), head_of(faces_, half)});
-        for (; surplus > 0; --surplus) open_.push_back({low, high, patch});
-        for (; surplus < 0; ++surplus) open_.push_back({high, low, patch});
+        for (; surplus > 0; --surplus) open_.edges.push_back({low, high, patch});
+        for (; surplus < 0; ++surplus) open_.edges.push_back({high, low, patch});
     }
 
     /// Balance of each patch on one crowded edge: a patch that is balanced by itself closes without
@@ -86,10 +89,11 @@ private:
         for (const auto& [first_half, half] : edge) surplus_of_patch_[patch_of(half)] = 0;
     }
 
+    const TriangleMesh& mesh_;
     const std::vector<Triangle>& faces_;
     const Orientation& patches_;
     std::vector<std::int64_t> surplus_of_patch_;
-    std::vector<OpenEdge> open_;
+    OpenEdges open_;
 };
 
 Eigen::Vector3d centroid_of_loop(const std::vector<OpenEdge>& open,
@@ -110,9 +114,9 @@ Eigen::Vector3d centroid_of_loop(const std::vector<OpenEdge>& open,
 
 }  // namespace
 
-std::vector<OpenEdge> find_open_edges(const std::vector<Triangle>& faces, const MeshEdges& edges,
-                                      const Orientation& patches, DisjointSets& groups) {
-    OpenEdgeFinder finder(faces, patches);
+OpenEdges find_open_edges(const TriangleMesh& mesh, const MeshEdges& edges,
+                          const Orientation& patches, DisjointSets& groups) {
+    OpenEdgeFinder finder(mesh, patches);
     finder.add_simple(edges);
     finder.add_crowded(edges.crowded, groups);
     return finder.take();
