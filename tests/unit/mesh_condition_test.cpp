@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -138,6 +139,28 @@ TEST(ConditionMesh, DropsWhatCarriesNothing) {
     EXPECT_EQ(value_of(result, "degenerate_faces_dropped"), 2.0);
     EXPECT_EQ(value_of(result, "vertices_unreferenced"), 1.0);
     EXPECT_EQ(result.vertex_of_input.back(), -1);
+}
+
+// Copies of the three faces around a hole: of each one's edges one has only the two copies on it,
+// the others have three faces; whichever corner the faces begin with.
+TEST(ConditionMesh, DropsCopiesAtTheRimOfAHole) {
+    const TriangleMesh whole = test::sphere(0.05, 800);
+    for (std::size_t turn = 0; turn < 3; ++turn) {
+        TriangleMesh soup = test::without(whole, {100});
+        for (Triangle& face : soup.faces) std::ranges::rotate(face, face.begin() + turn);
+        std::vector<std::size_t> rim;
+        for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+            const auto shared = std::ranges::count_if(soup.faces[f], [&](std::uint32_t v) {
+                return std::ranges::count(whole.faces[100], v) != 0;
+            });
+            if (shared == 2) rim.push_back(f);
+        }
+        ASSERT_EQ(rim.size(), 3u);
+        const ConditionedMesh result = conditioned(test::with_duplicates(soup, rim));
+        EXPECT_EQ(value_of(result, "duplicate_faces_dropped"), 3.0);
+        EXPECT_EQ(value_of(result, "holes_filled"), 1.0);
+        EXPECT_NEAR(result.volume_m3, test::signed_volume_m3(whole), 1e-15);
+    }
 }
 
 // Any winding in, one winding out: the volume is the shape's, and as many faces are reported as
