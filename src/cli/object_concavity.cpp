@@ -65,7 +65,12 @@ Result<ObjectConcavity> object_concavity(const ObjectFile& object, const Planner
             continue;
         }
         result.value_m.push_back(field.value().value_m[static_cast<std::size_t>(place)]);
-        result.flag.push_back(field.value().flag[static_cast<std::size_t>(place)]);
+        ConcavityFlag flag = field.value().flag[static_cast<std::size_t>(place)];
+        // The wrap's value is proven; that of the vertex, which stands beside it, is not.
+        if (closed.value().alpha_wrapped && flag == ConcavityFlag::kExact) {
+            flag = ConcavityFlag::kPath;
+        }
+        result.flag.push_back(flag);
     }
     return result;
 }

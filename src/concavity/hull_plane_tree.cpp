@@ -85,15 +85,20 @@ void HullPlaneTree::add_pack(std::uint32_t& leaf) {
     const std::uint32_t first = BoxTree::leaf_first(leaf), count = BoxTree::leaf_count(leaf);
     if (count == 0) return;
     Pack pack;
-    pack.normal.fill(Eigen::Array4f::Zero());
+    for (auto* axes : {&pack.normal, &pack.center, &pack.extent}) {
+        axes->fill(Eigen::Array4f::Zero());
+    }
     pack.offset = Eigen::Array4f::Constant(kNever);
     for (std::uint32_t k = 0; k < count; ++k) {
         pack.facet[k] = tree_.order[first + k];
         const HullFacet& facet = facets_[pack.facet[k]];
         const auto lane = static_cast<Eigen::Index>(k);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            pack.normal[axis][lane] =
-                static_cast<float>(facet.normal[static_cast<Eigen::Index>(axis)]);
+            const auto a = static_cast<Eigen::Index>(axis);
+            pack.normal[axis][lane] = static_cast<float>(facet.normal[a]);
+            pack.center[axis][lane] =
+                static_cast<float>((facet.box.center()[a] - middle_[a]) / diagonal_m_);
+            pack.extent[axis][lane] = static_cast<float>(0.5 * facet.box.sizes()[a] / diagonal_m_);
         }
         pack.offset[lane] =
             static_cast<float>((facet.offset_m - facet.normal.dot(middle_)) / diagonal_m_);
@@ -140,17 +145,30 @@ HullPlaneTree::Nearest HullPlaneTree::nearest(const Eigen::Vector3d& point,
     return best;
 }
 
-void HullPlaneTree::nearer_than(const Eigen::Vector3d& point, double limit_m,
-                                std::vector<std::uint32_t>& facets) const {
+void HullPlaneTree::facets_ahead(const Eigen::Vector3d& point, double limit_m,
+                                 const Eigen::Vector3d& normal, double below, double beside_m,
+                                 std::vector<std::uint32_t>& facets) const {
     facets.clear();
     const Eigen::Array4f unit = to_units(point);
+    const Eigen::Array3f up = normal.cast<float>().array();
+    const auto least_rise = static_cast<float>(-below);
     const float limit = static_cast<float>(limit_m / diagonal_m_) + kPad;
+    const float beside = static_cast<float>(beside_m / diagonal_m_) + kPad;
     WaitingList open(tree_.root);
     while (!open.empty()) {
         const Waiting item = open.take();
         if (BoxTree::is_leaf(item.child)) {
             const Pack& pack = packs_[BoxTree::leaf_first(item.child)];
-            unsigned lanes = lanes_not_negative(limit + kPad - pack.distances(unit));
+            const Eigen::Array4f distance = pack.distances(unit);
+            const Eigen::Array4f rise =
+                pack.normal[0] * up[0] + pack.normal[1] * up[1] + pack.normal[2] * up[2];
+            Eigen::Array4f room = (limit + kPad - distance).min(rise - least_rise);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const Eigen::Array4f foot =
+                    unit[static_cast<Eigen::Index>(axis)] + distance * pack.normal[axis];
+                room = room.min(beside + pack.extent[axis] - (foot - pack.center[axis]).abs());
+            }
+            unsigned lanes = lanes_not_negative(room);
             while (lanes != 0) facets.push_back(pack.facet[take_lane(lanes)]);
             continue;
         }

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "graspd/base/lanes.hpp"
+#include "bend_pool.hpp"
 #include "graspd/base/parallel.hpp"
 #include "slide_bends.hpp"
 
@@ -27,12 +27,10 @@ constexpr int kProbeRounds = 4;  // a region may be reached through another one 
 
 // Bent ways are shortened by looking around from so many vertices, each in a few of the directions,
 // and by the bends that most ways use and the nearest planes, of which each vertex tries a few.
-constexpr std::size_t kLookouts = 1024, kBendLookouts = 128;
-constexpr int kLookoutRays = 4;
-constexpr std::size_t kPoolBends = 512;
+constexpr std::size_t kBendLookouts = 128;
+constexpr std::size_t kMostBends = 512;
 constexpr std::size_t kTries = 12, kMostTries = 64;  // the latter for bends, which serve many ways
-constexpr int kBendRounds = 3;
-constexpr double kLeastGain = 1e-4;    // [1] of the value
+constexpr double kLeastGain = 1e-4;                  // [1] of the value
 constexpr double kBesideFacet = 0.01;  // [1] of the diagonal: how far from a facet a foot may lie
 
 using Entry = std::pair<double, std::int32_t>;  ///< length [m] through a parent, the parent
@@ -244,14 +242,6 @@ void PathSearch::reach_what_no_edge_reaches() {
     for (int round = 0; round < kProbeRounds && probe_unreached(); ++round) propagate();
 }
 
-/// What most ways go through, bends in single precision and side by side.
-struct PathSearch::Pool {
-    std::vector<std::int32_t> bends;
-    std::vector<std::array<Eigen::Array4f, 4>> quads;  ///< x, y, z [m from the base] and value [m]
-    Eigen::Vector3d base = Eigen::Vector3d::Zero();
-    float margin_m = 0.0F;  ///< that single precision stays within
-};
-
 /// Vertices whose value is not proven, near ones together.
 std::vector<std::uint32_t> PathSearch::bent_vertices() const {
     std::vector<std::uint32_t> bent;
@@ -261,68 +251,36 @@ std::vector<std::uint32_t> PathSearch::bent_vertices() const {
     return bent;
 }
 
-PathSearch::Pool PathSearch::most_used() const {
-    std::vector<std::pair<std::int32_t, std::int32_t>> uses;  // minus the count, the parent
-    std::vector<std::int32_t> parents;
-    for (std::size_t v = 0; v < field_.parent.size(); ++v) {
-        if (field_.flag[v] == ConcavityFlag::kPath) parents.push_back(field_.parent[v]);
+/// Vertices with a way out, near ones together.
+std::vector<std::uint32_t> PathSearch::finished_vertices() const {
+    std::vector<std::uint32_t> all;
+    for (const std::uint32_t v : ground_.order) {
+        if (finished(v)) all.push_back(v);
     }
-    std::ranges::sort(parents);
-    for (std::size_t i = 0; i < parents.size();) {
-        const auto end = std::upper_bound(parents.begin() + static_cast<std::ptrdiff_t>(i),
-                                          parents.end(), parents[i]) -
-                         parents.begin();
-        uses.emplace_back(static_cast<std::int32_t>(i) - static_cast<std::int32_t>(end),
-                          parents[i]);
-        i = static_cast<std::size_t>(end);
-    }
-    std::ranges::sort(uses);
-    Pool pool;
-    for (const auto& [count, parent] : uses) {
-        if (parent >= 0 && pool.bends.size() < kPoolBends) pool.bends.push_back(parent);
-    }
-    pool.base = ground_.mesh.vertices[ground_.order.front()];
-    pool.margin_m = static_cast<float>(4e-7 * ground_.diagonal_m);
-    pool.quads.resize((pool.bends.size() + 3) / 4);
-    for (std::size_t i = 0; i < 4 * pool.quads.size(); ++i) {
-        auto& quad = pool.quads[i / 4];
-        const auto lane = static_cast<Eigen::Index>(i % 4);
-        const bool is_there = i < pool.bends.size();
-        const std::int32_t bend = pool.bends[is_there ? i : 0];
-        const Eigen::Vector3d at = ground_.mesh.vertices[bend] - pool.base;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            quad[axis][lane] = static_cast<float>(at[static_cast<Eigen::Index>(axis)]);
-        }
-        quad[3][lane] = static_cast<float>(is_there ? field_.value_m[bend] : kInfinity);
-    }
-    return pool;
+    return all;
 }
 
-/// Whether a straight way to a parent leaves the solid at v and a string over it would be taut: the
-/// bend must lie on the outline seen from v, and the string press onto the solid there.
-bool PathSearch::is_promising(std::uint32_t v, std::int32_t parent) const {
-    constexpr double kSlack = 0.1;  // sine; the lift lets ways start a little below a face
-    const std::vector<Eigen::Vector3d>& vertices = ground_.mesh.vertices;
-    const auto spread_at = [&](std::size_t u) { return double{ground_.spread[u]} + kSlack; };
-    const auto facet_normal = [&](std::int32_t plane) {
-        return planes_.facet(static_cast<std::uint32_t>(-1 - plane)).normal;
-    };
-    if (parent < 0) {
-        const HullFacet& facet = planes_.facet(static_cast<std::uint32_t>(-1 - parent));
-        if (facet.normal.dot(ground_.normals[v]) < -spread_at(v)) return false;
-        const double gap_m = facet.offset_m - facet.normal.dot(vertices[v]);
-        const Eigen::Vector3d foot = vertices[v] + gap_m * facet.normal;
-        return facet.box.exteriorDistance(foot) <= kBesideFacet * ground_.diagonal_m;
+/// The bends that most of the ways that are not proven go through, near ones together.
+std::vector<std::uint32_t> PathSearch::most_used_bends() const {
+    std::vector<std::uint32_t> uses(field_.parent.size(), 0);
+    for (std::size_t v = 0; v < field_.parent.size(); ++v) {
+        if (field_.parent[v] >= 0) ++uses[static_cast<std::size_t>(field_.parent[v])];
     }
-    const Eigen::Vector3d to_bend = (vertices[parent] - vertices[v]).stableNormalized();
-    if (to_bend.dot(ground_.normals[v]) < -spread_at(v)) return false;
-    const Eigen::Vector3d& normal = ground_.normals[parent];
-    if (std::abs(to_bend.dot(normal)) > spread_at(static_cast<std::size_t>(parent))) return false;
-    const std::int32_t next = field_.parent[parent];
-    if (next == ConcavityField::kNoParent) return false;
-    const Eigen::Vector3d onward =
-        next < 0 ? facet_normal(next) : (vertices[next] - vertices[parent]).stableNormalized();
-    return (to_bend - onward).dot(normal) > -kSlack;
+    std::vector<std::uint32_t> counts;
+    for (const std::uint32_t count : uses) {
+        if (count > 0) counts.push_back(count);
+    }
+    std::uint32_t least = 1;
+    if (counts.size() > kMostBends) {
+        const auto last = counts.begin() + static_cast<std::ptrdiff_t>(kMostBends - 1);
+        std::ranges::nth_element(counts, last, std::greater<>());
+        least = *last;
+    }
+    std::vector<std::uint32_t> bends;
+    for (const std::uint32_t v : ground_.order) {
+        if (uses[v] >= least && bends.size() < kMostBends) bends.push_back(v);
+    }
+    return bends;
 }
 
 /// The few shortest of the candidates that promise a gain, shortest first.
@@ -335,7 +293,6 @@ public:
         const Entry entry{search_.length_through(v_, parent), parent};
         if (!(entry.first < limit_m_)) return;
         if (count_ == tries_ && !(entry < best_[count_ - 1])) return;
-        if (!search_.is_promising(v_, parent)) return;
         std::size_t place = count_ < tries_ ? count_++ : count_ - 1;
         for (; place > 0 && entry < best_[place - 1]; --place) best_[place] = best_[place - 1];
         best_[place] = entry;
@@ -358,26 +315,23 @@ void PathSearch::consider_listed(std::uint32_t v, const Shortlist& list, Way& wa
     }
 }
 
-/// Tries the most used bends, of those that promise a gain the shortest first.
-void PathSearch::consider_pool(std::uint32_t v, const Pool& pool, std::size_t tries, Way& way) {
-    Shortlist list(*this, v, way.value_m * (1.0 - kLeastGain), tries);
-    const Eigen::Array3f at = (ground_.mesh.vertices[v] - pool.base).cast<float>().array();
-    const float limit = static_cast<float>(way.value_m) + pool.margin_m;
-    for (std::size_t q = 0; q < pool.quads.size(); ++q) {
-        const auto& quad = pool.quads[q];
-        const Eigen::Array4f x = quad[0] - at[0], y = quad[1] - at[1], z = quad[2] - at[2];
-        const Eigen::Array4f length = (x * x + y * y + z * z).sqrt() + quad[3];
-        unsigned lanes = lanes_not_negative(limit - length);
-        while (lanes != 0) list.note(pool.bends[4 * q + take_lane(lanes)]);
-    }
+/// Tries the bends of a pool, of those that promise a gain the shortest first.
+void PathSearch::consider_pool(std::uint32_t v, const BendPool& pool, std::size_t tries, Way& way) {
+    const double limit_m = way.value_m * (1.0 - kLeastGain);
+    Shortlist list(*this, v, limit_m, tries);
+    pool.visit_promising(v, limit_m, [&](std::int32_t bend) { list.note(bend); });
     consider_listed(v, list, way);
 }
 
-/// Tries the hull's planes that are nearer than the way is long, the nearest first.
+/// Tries the hull's planes that are nearer than the way is long and lie ahead of v, the nearest
+/// first.
 void PathSearch::consider_planes(std::uint32_t v, Way& way) {
     thread_local std::vector<std::uint32_t> facets;  // one allocation a thread instead of a vertex
-    planes_.nearer_than(ground_.mesh.vertices[v], way.value_m, facets);
-    Shortlist list(*this, v, way.value_m * (1.0 - kLeastGain), kTries);
+    const double limit_m = way.value_m * (1.0 - kLeastGain);
+    planes_.facets_ahead(ground_.mesh.vertices[v], limit_m, ground_.normals[v],
+                         double{ground_.spread[v]} + BendPool::kSlack,
+                         kBesideFacet * ground_.diagonal_m, facets);
+    Shortlist list(*this, v, limit_m, kTries);
     for (const std::uint32_t facet : facets) list.note(-1 - static_cast<std::int32_t>(facet));
     consider_listed(v, list, way);
 }
@@ -400,43 +354,43 @@ bool PathSearch::improve(
 }
 
 /// Shortens the ways of the bends that most ways use. @return whether any got shorter
-bool PathSearch::shorten_bends() {
-    const Pool pool = most_used();
-    std::vector<std::uint32_t> bends;
-    for (const std::int32_t bend : pool.bends) {
-        const auto v = static_cast<std::uint32_t>(bend);
-        if (field_.flag[v] == ConcavityFlag::kPath) bends.push_back(v);
-    }
+bool PathSearch::shorten_bends(bool with_lookouts) {
+    std::vector<std::uint32_t> bends = most_used_bends();
+    std::erase_if(bends, [&](std::uint32_t v) { return field_.flag[v] != ConcavityFlag::kPath; });
+    const BendPool all(ground_, planes_, field_, finished_vertices());
     const std::size_t stride = 1 + bends.size() / kBendLookouts;
     const bool shorter = improve(bends, [&](std::uint32_t v, std::size_t place, Way& way) {
         consider_planes(v, way);
-        consider_pool(v, pool, kMostTries, way);
-        if (place % stride == 0) look_around(v, place, kProbeDirections, way);
+        consider_pool(v, all, kMostTries, way);
+        if (with_lookouts && place % stride == 0) look_around(v, place, kProbeDirections, way);
     });
     propagate();
     return shorter;
 }
 
-/// Step 4: the next bend may lie across the void, where no mesh edge leads. First the bends' own
-/// ways, which many share and which build on each other, then every vertex', then those of the
-/// bends once more, as some lead over vertices whose ways have just become shorter.
-void PathSearch::shorten_across_the_void() {
-    const std::vector<std::uint32_t> bent = bent_vertices();
-    if (bent.empty()) return;
-    for (int round = 0; round < kBendRounds && shorten_bends(); ++round) {
-    }
-    const std::size_t stride = 1 + bent.size() / kLookouts;
-    const Pool pool = most_used();
-    improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {
+/// Shortens every way that is not proven: by what the mesh neighbours' ways go through, by planes
+/// and by bends.
+void PathSearch::shorten_all(const std::vector<std::uint32_t>& bent) {
+    const BendPool all(ground_, planes_, field_, finished_vertices());
+    improve(bent, [&](std::uint32_t v, std::size_t, Way& way) {
         for (const std::uint32_t u : ground_.neighbours.of(v)) {
             if (finished(u) && consider(v, field_.parent[u], way)) straighten(v, way);
         }
         consider_planes(v, way);
-        consider_pool(v, pool, kTries, way);
-        if (place % stride == 0) look_around(v, place, kLookoutRays, way);
+        consider_pool(v, all, kTries, way);
     });
     propagate();
-    shorten_bends();
+}
+
+/// Step 4: the next bend may lie across the void, where no mesh edge leads. First the bends' own
+/// ways, which many share, then every vertex', then the bends' once more, as some lead over
+/// vertices whose ways have just become shorter.
+void PathSearch::shorten_across_the_void() {
+    const std::vector<std::uint32_t> bent = bent_vertices();
+    if (bent.empty()) return;
+    shorten_bends(true);
+    shorten_all(bent);
+    shorten_bends(false);
 }
 
 /// Step 5: bends slide along mesh edges.

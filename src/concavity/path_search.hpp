@@ -12,6 +12,8 @@
 
 namespace graspd::concavity_detail {
 
+class BendPool;
+
 /// The working state of shortest_path_concavity, which shows the order of the steps. Steps that run
 /// on several threads read the ways found so far and write new ones aside, so their result does not
 /// depend on the threads.
@@ -40,7 +42,6 @@ private:
         double value_m;
         std::int32_t parent;
     };
-    struct Pool;
     class Shortlist;
 
     bool finished(std::uint32_t v) const { return std::isfinite(field_.value_m[v]); }
@@ -61,12 +62,13 @@ private:
     bool probe_unreached();
 
     std::vector<std::uint32_t> bent_vertices() const;
-    Pool most_used() const;
-    bool is_promising(std::uint32_t v, std::int32_t parent) const;
+    std::vector<std::uint32_t> finished_vertices() const;
+    std::vector<std::uint32_t> most_used_bends() const;
     void consider_listed(std::uint32_t v, const Shortlist& list, Way& way);
     void consider_planes(std::uint32_t v, Way& way);
-    void consider_pool(std::uint32_t v, const Pool& pool, std::size_t tries, Way& way);
-    bool shorten_bends();
+    void consider_pool(std::uint32_t v, const BendPool& pool, std::size_t tries, Way& way);
+    bool shorten_bends(bool with_lookouts);
+    void shorten_all(const std::vector<std::uint32_t>& bent);
     bool improve(const std::vector<std::uint32_t>& vertices,
                  const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search);
 

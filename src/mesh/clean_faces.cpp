@@ -8,14 +8,6 @@
 namespace graspd::mesh_detail {
 namespace {
 
-std::vector<char> vertices_in_use(const TriangleMesh& soup) {
-    std::vector<char> in_use(soup.vertices.size(), 0);
-    for (const Triangle& face : soup.faces) {
-        for (const std::uint32_t vertex : face) in_use[vertex] = 1;
-    }
-    return in_use;
-}
-
 /// The faces seen so far, by their corners in rising order.
 class FaceSet {
 public:
@@ -44,21 +36,52 @@ private:
     std::vector<Triangle> sorted_;
 };
 
-/// Faces on the leaders' indices; counts what it drops.
+/// Faces on the leaders' indices, without those that have two equal corners.
 void keep_faces(const TriangleMesh& soup, const std::vector<std::uint32_t>& leader,
                 CleanFaces& result) {
-    FaceSet seen(soup.faces.size());
     result.mesh.faces.reserve(soup.faces.size());
     for (const Triangle& face : soup.faces) {
         const Triangle welded{leader[face[0]], leader[face[1]], leader[face[2]]};
         if (welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0]) {
             ++result.degenerate;
-        } else if (!seen.insert(welded)) {
-            ++result.duplicate;
         } else {
             result.mesh.faces.push_back(welded);
         }
     }
+}
+
+/// Faces that may have the corners of another one. Such a face has the other one alone across an
+/// edge, or the edge is crowded; of three edges two are of the same kind, and show the same number.
+/// 1 marks them; empty when there are none.
+std::vector<char> possible_duplicates(const MeshEdges& edges) {
+    std::vector<char> marked;
+    const std::size_t faces = edges.across.size() / 3;
+    for (std::size_t face = 0; face < faces; ++face) {
+        const std::uint32_t* across = &edges.across[3 * face];
+        const std::uint32_t a = across[0] / 3, b = across[1] / 3, c = across[2] / 3;
+        if (a != b && b != c && c != a) continue;
+        if ((a == b ? a : c) == face) continue;  // two open edges
+        marked.resize(faces, 0);
+        marked[face] = 1;
+    }
+    return marked;
+}
+
+/// Drops faces with the corners of an earlier one. Their vertices stay in use, by that one.
+void drop_duplicates(CleanFaces& result) {
+    const std::vector<char> possible = possible_duplicates(result.edges);
+    if (possible.empty()) return;
+    FaceSet seen(static_cast<std::size_t>(std::ranges::count(possible, 1)));
+    std::vector<Triangle>& faces = result.mesh.faces;
+    std::size_t kept = 0;
+    for (std::size_t face = 0; face < faces.size(); ++face) {
+        if (possible[face] && !seen.insert(faces[face])) continue;
+        faces[kept++] = faces[face];
+    }
+    result.duplicate = static_cast<std::uint32_t>(faces.size() - kept);
+    if (result.duplicate == 0) return;
+    faces.resize(kept);
+    result.edges = collect_edges(faces, result.mesh.vertices.size());
 }
 
 /// Numbers the vertices that the kept faces use, in the order of the input.
@@ -74,8 +97,10 @@ void renumber(const TriangleMesh& soup, const std::vector<std::uint32_t>& leader
         index[i] = static_cast<std::int32_t>(result.mesh.vertices.size());
         result.mesh.vertices.push_back(soup.vertices[i]);
     }
-    for (Triangle& face : result.mesh.faces) {
-        for (std::uint32_t& vertex : face) vertex = static_cast<std::uint32_t>(index[vertex]);
+    if (result.mesh.vertices.size() < soup.vertices.size()) {
+        for (Triangle& face : result.mesh.faces) {
+            for (std::uint32_t& vertex : face) vertex = static_cast<std::uint32_t>(index[vertex]);
+        }
     }
     result.vertex_of_input.resize(soup.vertices.size());
     for (std::size_t i = 0; i < index.size(); ++i) {
@@ -87,12 +112,14 @@ void renumber(const TriangleMesh& soup, const std::vector<std::uint32_t>& leader
 
 }  // namespace
 
-CleanFaces clean_faces(const TriangleMesh& soup, double tolerance_m) {
+CleanFaces clean_faces(const TriangleMesh& soup, const std::vector<char>& in_use,
+                       double tolerance_m) {
     CleanFaces result;
-    const std::vector<std::uint32_t> leader =
-        weld_vertices(soup.vertices, vertices_in_use(soup), tolerance_m);
+    const std::vector<std::uint32_t> leader = weld_vertices(soup.vertices, in_use, tolerance_m);
     keep_faces(soup, leader, result);
     renumber(soup, leader, result);
+    result.edges = collect_edges(result.mesh.faces, result.mesh.vertices.size());
+    drop_duplicates(result);
     return result;
 }
 

@@ -1,59 +1,100 @@
 #include "fill_holes.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <span>
+#include <utility>
 
 #include "hash_bits.hpp"
 
 namespace graspd::mesh_detail {
 namespace {
 
-/// Half-edges of the edges with more than two faces, grouped by edge.
-std::vector<std::vector<std::uint32_t>> crowded_edges(const MeshEdges& edges) {
-    std::vector<std::uint32_t> group_of_edge(edges.edges.size(), kNone);
-    std::vector<std::vector<std::uint32_t>> groups;
-    for (std::uint32_t half = 0; half < edges.edge_of_half.size(); ++half) {
-        const std::uint32_t edge = edges.edge_of_half[half];
-        if (edges.edges[edge].count <= 2) continue;
-        if (group_of_edge[edge] == kNone) {
-            group_of_edge[edge] = static_cast<std::uint32_t>(groups.size());
-            groups.emplace_back();
+/// A half-edge's number after its face is turned round or not: 0 and 2 change places, 1 stays.
+std::uint32_t turned(std::uint32_t half, const std::vector<char>& flip) {
+    return flip[half / 3] ? half - half % 3 + (2 - half % 3) : half;
+}
+
+/// Finds open edges among faces some of which are about to be turned round.
+class OpenEdgeFinder {
+public:
+    OpenEdgeFinder(const TriangleMesh& mesh, const Orientation& patches)
+        : mesh_(mesh), faces_(mesh.faces), patches_(patches) {}
+
+    /// Edges with one face, or with two that stay at odds.
+    void add_simple(const MeshEdges& edges) {
+        if (edges.open_edges == 0 && !edges.at_odds) return;
+        for (std::uint32_t half = 0; half < edges.across.size(); ++half) {
+            const std::uint32_t other = edges.across[half];
+            if (other == kNone || other < half) continue;
+            if (other == half) {
+                add(half, direction(half));
+            } else if (edges.at_odds && direction(half) == direction(other)) {
+                add(half, 2 * direction(half));
+                open_.seam_m +=
+                    (mesh_.vertices[tail_of(faces_, half)] - mesh_.vertices[head_of(faces_, half)])
+                        .norm();
+            }
         }
-        groups[group_of_edge[edge]].push_back(half);
     }
-    return groups;
-}
 
-/// Adds `surplus` open edges (negative: falling ones) along an edge.
-void add_open(const MeshEdge& edge, std::int64_t surplus, std::uint32_t patch,
-              std::vector<OpenEdge>& open) {
-    for (; surplus > 0; --surplus) open.push_back({edge.low, edge.high, patch});
-    for (; surplus < 0; ++surplus) open.push_back({edge.high, edge.low, patch});
-}
+    /// Edges with more faces, in the order of the turned half-edges.
+    void add_crowded(std::vector<CrowdedHalf> crowded, DisjointSets& groups) {
+        std::ranges::sort(crowded, {}, [&](const CrowdedHalf& each) {
+            return CrowdedHalf{turned(each.edge, patches_.flip), turned(each.half, patches_.flip)};
+        });
+        surplus_of_patch_.resize(patches_.patches);
+        for (std::size_t begin = 0, end = 0; begin < crowded.size(); begin = end) {
+            while (end < crowded.size() && crowded[end].edge == crowded[begin].edge) ++end;
+            balance(std::span(crowded).subspan(begin, end - begin), groups);
+        }
+    }
 
-/// Balance of each patch on one crowded edge: a patch that is balanced by itself closes without
-/// the others; those that are not belong together.
-void balance_crowded_edge(const std::vector<Triangle>& faces, const MeshEdges& edges,
-                          const std::vector<std::uint32_t>& halves, const Orientation& patches,
-                          std::vector<std::int64_t>& surplus_of_patch, DisjointSets& groups,
-                          std::vector<OpenEdge>& open) {
-    std::int64_t surplus = 0;
-    for (const std::uint32_t half : halves) {
-        const std::int64_t direction = rises(faces, half) ? 1 : -1;
-        surplus_of_patch[patches.patch_of_face[half / 3]] += direction;
-        surplus += direction;
+    OpenEdges take() { return std::move(open_); }
+
+private:
+    std::uint32_t patch_of(std::uint32_t half) const { return patches_.patch_of_face[half / 3]; }
+
+    /// +1 where the face, turned or not, runs from the lower to the higher vertex; else -1.
+    std::int64_t direction(std::uint32_t half) const {
+        return rises(faces_, half) != (patches_.flip[half / 3] != 0) ? 1 : -1;
     }
-    std::uint32_t first = kNone;  // a patch that is not balanced
-    std::uint32_t owner = kNone;  // one that is unbalanced in the direction of the sum
-    for (const std::uint32_t half : halves) {
-        const std::uint32_t patch = patches.patch_of_face[half / 3];
-        if (surplus_of_patch[patch] == 0) continue;
-        if (first == kNone) first = patch;
-        groups.unite(first, patch);
-        if (owner == kNone && (surplus_of_patch[patch] > 0) == (surplus > 0)) owner = patch;
+
+    /// Adds `surplus` open edges (negative: falling ones) along a half-edge's edge.
+    void add(std::uint32_t half, std::int64_t surplus, std::uint32_t patch = kNone) {
+        if (patch == kNone) patch = patch_of(half);
+        const auto [low, high] = std::minmax({tail_of(faces_, half), head_of(faces_, half)});
+        for (; surplus > 0; --surplus) open_.edges.push_back({low, high, patch});
+        for (; surplus < 0; ++surplus) open_.edges.push_back({high, low, patch});
     }
-    add_open(edges.edges[edges.edge_of_half[halves.front()]], surplus, owner, open);
-    for (const std::uint32_t half : halves) surplus_of_patch[patches.patch_of_face[half / 3]] = 0;
-}
+
+    /// Balance of each patch on one crowded edge: a patch that is balanced by itself closes without
+    /// the others; those that are not belong together.
+    void balance(std::span<const CrowdedHalf> edge, DisjointSets& groups) {
+        std::int64_t surplus = 0;
+        for (const auto& [first_half, half] : edge) {
+            surplus_of_patch_[patch_of(half)] += direction(half);
+            surplus += direction(half);
+        }
+        std::uint32_t first = kNone;  // a patch that is not balanced
+        std::uint32_t owner = kNone;  // one that is unbalanced in the direction of the sum
+        for (const auto& [first_half, half] : edge) {
+            const std::uint32_t patch = patch_of(half);
+            if (surplus_of_patch_[patch] == 0) continue;
+            if (first == kNone) first = patch;
+            groups.unite(first, patch);
+            if (owner == kNone && (surplus_of_patch_[patch] > 0) == (surplus > 0)) owner = patch;
+        }
+        add(edge.front().half, surplus, owner);
+        for (const auto& [first_half, half] : edge) surplus_of_patch_[patch_of(half)] = 0;
+    }
+
+    const TriangleMesh& mesh_;
+    const std::vector<Triangle>& faces_;
+    const Orientation& patches_;
+    std::vector<std::int64_t> surplus_of_patch_;
+    OpenEdges open_;
+};
 
 Eigen::Vector3d centroid_of_loop(const std::vector<OpenEdge>& open,
                                  const std::vector<std::uint32_t>& loop,
@@ -73,22 +114,12 @@ Eigen::Vector3d centroid_of_loop(const std::vector<OpenEdge>& open,
 
 }  // namespace
 
-std::vector<OpenEdge> find_open_edges(const std::vector<Triangle>& faces, const MeshEdges& edges,
-                                      const Orientation& patches, DisjointSets& groups) {
-    std::vector<OpenEdge> open;
-    for (const MeshEdge& edge : edges.edges) {
-        if (edge.count > 2) continue;
-        std::int64_t surplus = 0;
-        for (std::uint32_t k = 0; k < edge.count; ++k) {
-            surplus += rises(faces, edge.half[k]) ? 1 : -1;
-        }
-        add_open(edge, surplus, patches.patch_of_face[edge.half[0] / 3], open);
-    }
-    std::vector<std::int64_t> surplus_of_patch(patches.patches, 0);
-    for (const std::vector<std::uint32_t>& halves : crowded_edges(edges)) {
-        balance_crowded_edge(faces, edges, halves, patches, surplus_of_patch, groups, open);
-    }
-    return open;
+OpenEdges find_open_edges(const TriangleMesh& mesh, const MeshEdges& edges,
+                          const Orientation& patches, DisjointSets& groups) {
+    OpenEdgeFinder finder(mesh, patches);
+    finder.add_simple(edges);
+    finder.add_crowded(edges.crowded, groups);
+    return finder.take();
 }
 
 std::vector<std::vector<std::uint32_t>> walk_loops(const std::vector<OpenEdge>& open,

@@ -17,12 +17,18 @@ struct OpenEdge {
     std::uint32_t patch = 0;
 };
 
+/// Half-edges without an opposite.
+struct OpenEdges {
+    std::vector<OpenEdge> edges;
+    double seam_m = 0.0;  ///< [m] length of the edges whose two faces are at odds
+};
+
 /// Finds the half-edges without an opposite, each as often as it is missing one, and unites the
 /// patches that need one another at an edge with more than two faces. At every vertex as many of
 /// them end as start, because each face is a directed cycle.
-/// @param faces  oriented, and `edges` with them (turn_faces)
-std::vector<OpenEdge> find_open_edges(const std::vector<Triangle>& faces, const MeshEdges& edges,
-                                      const Orientation& patches, DisjointSets& groups);
+/// @param mesh  as `edges` saw it; open edges run as after turn_faces(patches.flip)
+OpenEdges find_open_edges(const TriangleMesh& mesh, const MeshEdges& edges,
+                          const Orientation& patches, DisjointSets& groups);
 
 /// Joins open edges to loops that visit no vertex twice: indices into `open`, each edge in one
 /// loop. Complexity O(open + V).

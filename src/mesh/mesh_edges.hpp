@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,21 +23,26 @@ inline bool rises(const std::vector<Triangle>& faces, std::uint32_t half) {
     return tail_of(faces, half) < head_of(faces, half);
 }
 
-/// An undirected edge.
-struct MeshEdge {
-    std::uint32_t low = 0;       ///< lower vertex index
-    std::uint32_t high = 0;      ///< higher vertex index
-    std::uint32_t half[2] = {};  ///< the first two half-edges on it
-    std::uint32_t count = 0;     ///< half-edges on it: 2 on a manifold, 1 at a boundary
+/// A half-edge on an edge with more than two faces.
+struct CrowdedHalf {
+    std::uint32_t edge = 0;  ///< the lowest half-edge on the same edge
+    std::uint32_t half = 0;
+
+    auto operator<=>(const CrowdedHalf&) const = default;
 };
 
-/// The undirected edges of a face list, in order of their first half-edge.
+/// What lies on the other side of every half-edge.
 struct MeshEdges {
-    std::vector<MeshEdge> edges;
-    std::vector<std::uint32_t> edge_of_half;  ///< (3 F)
+    /// (3 F) on an edge with two faces the other half-edge, on one with a single face the half-edge
+    /// itself, on one with more kNone (hash_bits.hpp)
+    std::vector<std::uint32_t> across;
+    std::vector<CrowdedHalf> crowded;  ///< all of them; those of an edge in rising order
+    std::size_t crowded_edges = 0;     ///< edges with more than two faces
+    std::size_t open_edges = 0;        ///< edges with a single face
+    bool at_odds = false;              ///< some two faces run along an edge in the same direction
 };
 
-/// Collects the edges. No face may repeat a vertex. Complexity O(F) expected.
-MeshEdges collect_edges(const std::vector<Triangle>& faces);
+/// Collects the edges. No face may repeat a vertex. Complexity O(V + F).
+MeshEdges collect_edges(const std::vector<Triangle>& faces, std::size_t vertex_count);
 
 }  // namespace graspd::mesh_detail

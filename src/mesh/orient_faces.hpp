@@ -22,7 +22,7 @@ struct Orientation {
 /// Complexity O(F).
 Orientation orient_faces(const std::vector<Triangle>& faces, const MeshEdges& edges);
 
-/// Turns the marked faces round, in `faces` and in what `edges` knows of their half-edges.
-void turn_faces(const std::vector<char>& flip, std::vector<Triangle>& faces, MeshEdges& edges);
+/// Turns the marked faces round: (a, b, c) becomes (a, c, b).
+void turn_faces(const std::vector<char>& flip, std::vector<Triangle>& faces);
 
 }  // namespace graspd::mesh_detail

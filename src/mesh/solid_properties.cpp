@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "hash_bits.hpp"
+
 namespace graspd::mesh_detail {
 namespace {
 
@@ -16,56 +18,80 @@ Eigen::Vector3d middle_of(const std::vector<Eigen::Vector3d>& vertices) {
     return box.center();
 }
 
-}  // namespace
-
-SolidProperties integrate_solid(const TriangleMesh& mesh) {
+/// Integrates about a point; `six_volumes(face, 6 volume of its tetrahedron)` hears of every face.
+template <class PerFace>
+SolidProperties integrate_about(const TriangleMesh& mesh, const Eigen::Vector3d& middle,
+                                PerFace&& six_volumes) {
     SolidProperties solid;
-    const Eigen::Vector3d middle = middle_of(mesh.vertices);
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-    for (const Triangle& face : mesh.faces) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const Triangle& face = mesh.faces[f];
         const Eigen::Vector3d a = mesh.vertices[face[0]] - middle;
         const Eigen::Vector3d b = mesh.vertices[face[1]] - middle;
         const Eigen::Vector3d c = mesh.vertices[face[2]] - middle;
-        const double tetrahedron = a.dot(b.cross(c)) / 6.0;
+        const double six = a.dot(b.cross(c));
+        six_volumes(f, six);
+        const double tetrahedron = six / 6.0;
         solid.volume_m3 += tetrahedron;
         moment += tetrahedron * 0.25 * (a + b + c);
-        solid.area_m2 += 0.5 * (b - a).cross(c - a).norm();
     }
     if (solid.volume_m3 != 0.0) solid.center_of_mass = middle + moment / solid.volume_m3;
     return solid;
 }
 
-std::uint32_t turn_outward(TriangleMesh& mesh, const std::vector<std::uint32_t>& patch_of_face,
-                           std::uint32_t patches, DisjointSets& groups) {
+}  // namespace
+
+OutwardSolid turn_outward(TriangleMesh& mesh, const std::vector<std::uint32_t>& patch_of_face,
+                          std::uint32_t patches, DisjointSets& groups) {
     const Eigen::Vector3d middle = middle_of(mesh.vertices);
-    std::vector<double> volume(patches, 0.0);
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        const Triangle& face = mesh.faces[f];
-        volume[groups.find(patch_of_face[f])] +=
-            (mesh.vertices[face[0]] - middle)
-                .dot((mesh.vertices[face[1]] - middle).cross(mesh.vertices[face[2]] - middle));
+    std::vector<std::uint32_t> group_of_patch(patches);
+    for (std::uint32_t patch = 0; patch < patches; ++patch) {
+        group_of_patch[patch] = groups.find(patch);
     }
+    std::vector<double> volume(patches, 0.0);  // six-fold, per group
+    OutwardSolid outward;
+    outward.solid = integrate_about(mesh, middle, [&](std::size_t f, double six) {
+        volume[group_of_patch[patch_of_face[f]]] += six;
+    });
     double largest = 0.0;
     for (const double each : volume) largest = std::max(largest, std::abs(each));
     const auto points_inward = [&](std::uint32_t group) {
         return volume[group] < -kNoVolume * largest;
     };
-    std::uint32_t turned = 0;
-    for (std::uint32_t patch = 0; patch < patches; ++patch) turned += points_inward(patch);
+    for (std::uint32_t group = 0; group < patches; ++group) outward.turned += points_inward(group);
+    if (outward.turned == 0) return outward;
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         Triangle& face = mesh.faces[f];
-        if (points_inward(groups.find(patch_of_face[f]))) std::swap(face[1], face[2]);
+        if (points_inward(group_of_patch[patch_of_face[f]])) std::swap(face[1], face[2]);
     }
-    return turned;
+    outward.solid = integrate_about(mesh, middle, [](std::size_t, double) {});
+    return outward;
 }
 
-std::uint32_t count_components(const TriangleMesh& mesh) {
-    DisjointSets pieces(mesh.vertices.size());
-    std::uint32_t count = static_cast<std::uint32_t>(mesh.vertices.size());
+double surface_area_m2(const TriangleMesh& mesh) {
+    double area_m2 = 0.0;
     for (const Triangle& face : mesh.faces) {
-        for (std::size_t k = 1; k < 3; ++k) {
-            count -= pieces.find(face[0]) != pieces.find(face[k]);
-            pieces.unite(face[0], face[k]);
+        const Eigen::Vector3d& a = mesh.vertices[face[0]];
+        area_m2 += 0.5 * (mesh.vertices[face[1]] - a).cross(mesh.vertices[face[2]] - a).norm();
+    }
+    return area_m2;
+}
+
+std::uint32_t count_components(const TriangleMesh& mesh,
+                               const std::vector<std::uint32_t>& patch_of_face,
+                               std::uint32_t patches) {
+    if (patches == 1) return 1;
+    DisjointSets pieces(patches);
+    std::uint32_t count = patches;
+    std::vector<std::uint32_t> patch_of_vertex(mesh.vertices.size(), kNone);
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const std::uint32_t patch = patch_of_face[f];
+        for (const std::uint32_t vertex : mesh.faces[f]) {
+            std::uint32_t& known = patch_of_vertex[vertex];
+            if (known == kNone) known = patch;
+            if (known == patch) continue;
+            count -= pieces.find(known) != pieces.find(patch);
+            pieces.unite(known, patch);
         }
     }
     return count;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -94,12 +95,29 @@ TEST(ObjectConcavity, PassesErrorsOn) {
     ObjectFile file;
     file.object = PointCloud{};
     EXPECT_EQ(object_concavity(file, {}).error().code, PlanErrorCode::kInvalidInput);
-    TriangleMesh sheet;
-    sheet.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    sheet.faces = {{0, 1, 2}};
-    const auto flat = object_concavity(file_of(sheet), {});
+    TriangleMesh line;
+    line.vertices = {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}};
+    line.faces = {{0, 1, 2}};
+    const auto flat = object_concavity(file_of(line), {});
     ASSERT_FALSE(flat.ok());
     EXPECT_EQ(flat.error().code, PlanErrorCode::kDegenerate);
+}
+
+// A sheet is wrapped: each vertex has the value of the wrap beside it, which nobody has proven for
+// the vertex itself. A flat sheet lies on its hull: the wrap's value is 0.
+TEST(ObjectConcavity, AWrapsValueIsNotProven) {
+    TriangleMesh sheet;
+    sheet.vertices = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.05, 0.05, 0.2}};
+    sheet.faces = {{0, 1, 2}};
+    const ObjectConcavity concavity = concavity_of(file_of(sheet));
+    ASSERT_EQ(concavity.value_m.size(), 4u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(concavity.flag[i], ConcavityFlag::kPath);
+        EXPECT_NEAR(concavity.value_m[i], 0.0, 2e-4);  // the wrap is 1e-3 of 0.141 m off
+    }
+    EXPECT_EQ(concavity.flag[3], ConcavityFlag::kUnreferenced);
+    EXPECT_TRUE(std::ranges::any_of(
+        concavity.findings, [](const Finding& each) { return each.code == "alpha_wrapped"; }));
 }
 
 // Numbers read back bit for bit; a line is "index value flag".
@@ -174,7 +192,7 @@ TEST_F(ConcavityCommand, NamesTheFileThatFailed) {
         EXPECT_EQ(run_concavity(object_, "any_angle", "", output_), 2);
         return testing::internal::GetCapturedStderr();
     };
-    std::ofstream(object_.file) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    std::ofstream(object_.file) << "OFF\n3 1 0\n0 0 0\n1 0 0\n3 0 0\n3 0 1 2\n";
     EXPECT_THAT(message_of(), testing::AllOf(HasSubstr(object_.file), HasSubstr("flat sheet")));
     object_.file = "/nowhere/mug.stl";
     EXPECT_THAT(message_of(), HasSubstr("/nowhere/mug.stl"));

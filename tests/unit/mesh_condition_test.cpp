@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -108,6 +109,19 @@ TEST(ConditionMesh, WeldsWithinTheToleranceOnly) {
     EXPECT_EQ(welded.value().mesh.vertices.size(), mesh.vertices.size());
 }
 
+// The same where the walls of the welding grid run elsewhere: some of them part copies of a vertex.
+TEST(ConditionMesh, WeldsAcrossTheGridsWalls) {
+    for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE(i);
+        const TriangleMesh mesh = box({0.02 + 1e-4 * i, 0.03, 0.05}, 500);
+        TriangleMesh soup = test::to_soup(mesh);
+        for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
+            soup.vertices[v].array() += v % 2 ? 1.5e-9 : -1.5e-9;  // of a tolerance of 6e-9
+        }
+        EXPECT_EQ(conditioned(soup).mesh.vertices.size(), mesh.vertices.size());
+    }
+}
+
 // Faces with a repeated corner, faces given twice (in any winding) and unused vertices go, and each
 // kind is counted.
 TEST(ConditionMesh, DropsWhatCarriesNothing) {
@@ -125,6 +139,28 @@ TEST(ConditionMesh, DropsWhatCarriesNothing) {
     EXPECT_EQ(value_of(result, "degenerate_faces_dropped"), 2.0);
     EXPECT_EQ(value_of(result, "vertices_unreferenced"), 1.0);
     EXPECT_EQ(result.vertex_of_input.back(), -1);
+}
+
+// Copies of the three faces around a hole: of each one's edges one has only the two copies on it,
+// the others have three faces; whichever corner the faces begin with.
+TEST(ConditionMesh, DropsCopiesAtTheRimOfAHole) {
+    const TriangleMesh whole = test::sphere(0.05, 800);
+    for (std::size_t turn = 0; turn < 3; ++turn) {
+        TriangleMesh soup = test::without(whole, {100});
+        for (Triangle& face : soup.faces) std::ranges::rotate(face, face.begin() + turn);
+        std::vector<std::size_t> rim;
+        for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+            const auto shared = std::ranges::count_if(soup.faces[f], [&](std::uint32_t v) {
+                return std::ranges::count(whole.faces[100], v) != 0;
+            });
+            if (shared == 2) rim.push_back(f);
+        }
+        ASSERT_EQ(rim.size(), 3u);
+        const ConditionedMesh result = conditioned(test::with_duplicates(soup, rim));
+        EXPECT_EQ(value_of(result, "duplicate_faces_dropped"), 3.0);
+        EXPECT_EQ(value_of(result, "holes_filled"), 1.0);
+        EXPECT_NEAR(result.volume_m3, test::signed_volume_m3(whole), 1e-15);
+    }
 }
 
 // Any winding in, one winding out: the volume is the shape's, and as many faces are reported as
@@ -226,8 +262,8 @@ TEST(ConditionMesh, WalksHolesThatTouchInAVertex) {
     EXPECT_NEAR(result.volume_m3, test::signed_volume_m3(mesh), 1e-15);
 }
 
-// A one-sided strip cannot be oriented; what comes out must still be balanced on every edge.
-TEST(ConditionMesh, ClosesAMoebiusStripSomehow) {
+// A strip with one side and one edge.
+TriangleMesh moebius_strip() {
     TriangleMesh strip;
     constexpr std::uint32_t kPieces = 30;
     for (std::uint32_t i = 0; i < kPieces; ++i) {
@@ -245,13 +281,100 @@ TEST(ConditionMesh, ClosesAMoebiusStripSomehow) {
         strip.faces.push_back({a, b, c});
         strip.faces.push_back({b, d, c});
     }
-    const auto result = condition_mesh(strip, {});
-    if (result.ok()) {
-        EXPECT_TRUE(test::is_balanced(result.value().mesh));
-        EXPECT_GT(result.value().volume_m3, 0.0);
-    } else {
-        EXPECT_EQ(result.error().code, PlanErrorCode::kDegenerate);
+    return strip;
+}
+
+/// A square sheet in the plane z = 0, 0.1 m wide, that looks towards +z.
+TriangleMesh flat_sheet(std::uint32_t cells) {
+    TriangleMesh sheet;
+    for (std::uint32_t i = 0; i <= cells; ++i) {
+        for (std::uint32_t j = 0; j <= cells; ++j) {
+            sheet.vertices.emplace_back(0.1 * i / cells, 0.1 * j / cells, 0.0);
+        }
     }
+    for (std::uint32_t i = 0; i < cells; ++i) {
+        for (std::uint32_t j = 0; j < cells; ++j) {
+            const std::uint32_t a = i * (cells + 1) + j, b = a + cells + 1;
+            sheet.faces.push_back({a, b, b + 1});
+            sheet.faces.push_back({a, b + 1, a + 1});
+        }
+    }
+    return sheet;
+}
+
+// A one-sided strip cannot be oriented, so it is wrapped: closed, with a volume of its area (0.02
+// and 0.1 m: some 0.04 x 0.63 m^2) times twice the offset at least. Every vertex goes to one of the
+// wrap, not farther away than the wrap's triangles are wide. Without the wrap it comes out
+// balanced.
+TEST(ConditionMesh, WrapsAMoebiusStrip) {
+    const TriangleMesh strip = moebius_strip();
+    const ConditionedMesh result = conditioned(strip);
+    const double alpha_m = value_of(result, "alpha_wrapped");
+    EXPECT_TRUE(result.alpha_wrapped);
+    EXPECT_NEAR(alpha_m, 0.03 * 0.33, 0.03 * 0.03);
+    ASSERT_FALSE(result.findings.empty());
+    EXPECT_THAT(result.findings[0].detail, HasSubstr("one-sided"));
+    EXPECT_EQ(value_of(result, "holes_filled"), 0.0);
+    EXPECT_EQ(value_of(result, "components"), 1.0);
+    EXPECT_TRUE(test::is_closed_manifold(result.mesh));
+    EXPECT_GT(result.volume_m3, 2.0 * 0.00033 * 0.025);
+    EXPECT_NEAR(result.volume_m3, test::signed_volume_m3(result.mesh), 1e-12);
+    for (std::size_t i = 0; i < strip.vertices.size(); ++i) {
+        const Eigen::Vector3d& nearest = result.mesh.vertices.at(result.vertex_of_input[i]);
+        EXPECT_LT((nearest - strip.vertices[i]).norm(), alpha_m);
+    }
+    ConditionMeshConfig config;
+    config.alpha_wrap = false;
+    const auto unwrapped = condition_mesh(strip, config);
+    if (unwrapped.ok()) {
+        EXPECT_TRUE(test::is_balanced(unwrapped.value().mesh));
+        EXPECT_EQ(value_of(unwrapped.value(), "alpha_wrapped"), 0.0);
+    }
+}
+
+// A flat sheet becomes a plate as thick as twice the offset (1e-3 of the diagonal of 0.1414 m); its
+// vertices speak for the side that they look to, so they go to z > 0.
+TEST(ConditionMesh, WrapsAFlatSheet) {
+    const TriangleMesh sheet = flat_sheet(20);
+    const ConditionedMesh result = conditioned(sheet);
+    EXPECT_TRUE(result.alpha_wrapped);
+    EXPECT_TRUE(test::is_closed_manifold(result.mesh));
+    EXPECT_NEAR(result.volume_m3, 0.01 * 2.0 * 1.414e-4, 0.05e-6);
+    for (const Eigen::Vector3d& vertex : result.mesh.vertices) {
+        EXPECT_LT(std::abs(vertex.z()), 1.5e-4);
+    }
+    for (std::size_t i = 0; i < sheet.vertices.size(); ++i) {
+        const Eigen::Vector3d& nearest = result.mesh.vertices.at(result.vertex_of_input[i]);
+        const Eigen::Vector3d& p = sheet.vertices[i];
+        EXPECT_LT((nearest - p).norm(), 0.03 * 0.1414) << i;
+        const double to_rim = std::min({p.x(), p.y(), 0.1 - p.x(), 0.1 - p.y()});
+        EXPECT_TRUE(to_rim < 1e-3 || nearest.z() > 0.0) << i;
+    }
+    ASSERT_FALSE(result.findings.empty());
+    EXPECT_EQ(result.findings[0].code, "alpha_wrapped");
+    EXPECT_THAT(result.findings[0].detail, HasSubstr("flat sheet"));
+}
+
+// The same wrap again, and the same a thousand times as large and 100 m away.
+TEST(ConditionMesh, WrapsAlikeEveryTime) {
+    const TriangleMesh strip = moebius_strip();
+    const ConditionedMesh once = conditioned(strip), again = conditioned(strip);
+    EXPECT_EQ(again.mesh.vertices, once.mesh.vertices);
+    EXPECT_EQ(again.mesh.faces, once.mesh.faces);
+    EXPECT_EQ(again.vertex_of_input, once.vertex_of_input);
+    Eigen::Isometry3d away = Eigen::Isometry3d::Identity();
+    away.translation() = Eigen::Vector3d(100, -80, 60);
+    const ConditionedMesh large = conditioned(test::moved(test::scaled(strip, 1e3), away));
+    EXPECT_NEAR(large.volume_m3, 1e9 * once.volume_m3, 0.02e9 * once.volume_m3);
+}
+
+// A coarser wrap has fewer triangles: the count goes with the area over alpha squared.
+TEST(ConditionMesh, AlphaBoundsTheWrap) {
+    ConditionMeshConfig coarse;
+    coarse.wrap_alpha = 0.1;
+    const auto result = condition_mesh(moebius_strip(), coarse);
+    ASSERT_TRUE(result.ok());
+    EXPECT_LT(result.value().mesh.faces.size(), conditioned(moebius_strip()).mesh.faces.size() / 2);
 }
 
 // Everything at once, over fixed seeds: balanced on every edge, outward, no vertex unused, every
@@ -336,15 +459,27 @@ TEST(ConditionMesh, RefusesWhatIsOverItsLimits) {
     EXPECT_THAT(error_of(mesh, config).detail, HasSubstr("12 faces"));
 }
 
-TEST(ConditionMesh, RefusesAFlatSheetWithItsRatio) {
+TEST(ConditionMesh, RefusesAFlatSheetWithItsRatioWhenItMayNotWrap) {
+    ConditionMeshConfig config;
+    config.alpha_wrap = false;
     TriangleMesh sheet;
     sheet.vertices = {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}};
     sheet.faces = {{0, 1, 2}, {0, 2, 3}};
-    const PlanError error = error_of(sheet);
+    const PlanError error = error_of(sheet, config);
     EXPECT_EQ(error.code, PlanErrorCode::kDegenerate);
     EXPECT_THAT(error.detail, HasSubstr("flat sheet"));
     // 1 x 1 x 1e-6: volume over the diagonal cubed is 1e-6 / 2.83 = 3.5e-7, below the default 1e-6.
-    EXPECT_EQ(error_of(box({0.1, 0.1, 1e-7}, 12)).code, PlanErrorCode::kDegenerate);
+    EXPECT_EQ(error_of(box({0.1, 0.1, 1e-7}, 12), config).code, PlanErrorCode::kDegenerate);
+}
+
+// Three corners on a line: there is no area to wrap.
+TEST(ConditionMesh, RefusesALine) {
+    TriangleMesh line;
+    line.vertices = {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}};
+    line.faces = {{0, 1, 2}};
+    const PlanError error = error_of(line);
+    EXPECT_EQ(error.code, PlanErrorCode::kDegenerate);
+    EXPECT_THAT(error.detail, HasSubstr("no face of the mesh has an area"));
 }
 
 TEST(ConditionMesh, RefusesFacesThatAreAllDegenerate) {

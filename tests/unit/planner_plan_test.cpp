@@ -136,17 +136,17 @@ struct Flaw {
 };
 std::vector<Flaw> flawed_objects() {
     const TriangleMesh block = test::box({0.06, 0.04, 0.08});
-    TriangleMesh not_finite = block, out_of_range = block, flat = block;
+    TriangleMesh not_finite = block, out_of_range = block, line = block;
     not_finite.vertices[3].y() = kNaN;
     out_of_range.faces[5][1] = 4711;
-    for (Vector3d& vertex : flat.vertices) vertex.z() = 0.0;
+    for (Vector3d& vertex : line.vertices) vertex.head<2>().setZero();
     PointCloud nothing_finite;
     nothing_finite.points.assign(100, Vector3d::Constant(kNaN));
     return {{"empty mesh", TriangleMesh{}, {"empty"}},
             {"vertices without faces", TriangleMesh{block.vertices, {}}, {"empty"}},
             {"not finite", not_finite, {"3", "nan"}},
             {"index out of range", out_of_range, {"5", "4711"}},
-            {"flat sheet", flat, {}},
+            {"line", line, {"degenerate"}},
             {"empty cloud", PointCloud{}, {}},
             {"cloud of NaN", nothing_finite, {}}};
 }
@@ -166,6 +166,19 @@ TEST(Plan, AFlawedObjectIsNamed) {
                 << flaw.name << ": " << reply.message;
         }
     }
+}
+
+// A sheet has no inside of its own: it is wrapped, and whoever reads the reply is told.
+TEST(Plan, AFlatSheetIsWrapped) {
+    TriangleMesh sheet = test::box({0.06, 0.04, 0.08});
+    for (Vector3d& vertex : sheet.vertices) vertex.z() = 0.0;
+    PlanRequest request = request_for({});
+    request.object_O = sheet;
+    const PlanReply reply = plan(request, {});
+    EXPECT_NE(reply.status, PlanStatus::kInvalidRequest) << reply.message;
+    EXPECT_NE(reply.status, PlanStatus::kInternalError) << reply.message;
+    EXPECT_TRUE(std::ranges::any_of(
+        reply.report.findings, [](const Finding& each) { return each.code == "alpha_wrapped"; }));
 }
 
 // Any other field goes through check_request, whose table has a test of its own, and the settings

@@ -50,10 +50,14 @@ public:
     /// @param hint  a facet that may be near, such as a neighbouring point's: it only saves time
     Nearest nearest(const Eigen::Vector3d& point, std::uint32_t hint = 0) const;
 
-    /// Every facet whose plane is nearer than a limit [m], and a few more, in no order that means
-    /// anything.
-    void nearer_than(const Eigen::Vector3d& point, double limit_m,
-                     std::vector<std::uint32_t>& facets) const;
+    /// Every facet whose plane is nearer than a limit, whose normal leads away from the point's
+    /// surface and on which the foot of the perpendicular comes to lie; and some that miss one of
+    /// these by a little. In no order that means anything.
+    /// @param normal   of the surface at the point, of unit length
+    /// @param below    [1] sine of how far below the surface's plane a way may lead
+    /// @param beside_m [m] how far from the facet's box the foot may lie
+    void facets_ahead(const Eigen::Vector3d& point, double limit_m, const Eigen::Vector3d& normal,
+                      double below, double beside_m, std::vector<std::uint32_t>& facets) const;
 
     /// The facet by whose plane a ray from inside leaves the hull; ties by the lower index, 0 where
     /// rounding leaves none.
@@ -65,7 +69,8 @@ private:
     /// The up to four facets of a leaf side by side, in the tree's units.
     struct Pack {
         std::array<Eigen::Array4f, 3> normal;
-        Eigen::Array4f offset;  ///< infinite where there is no facet
+        Eigen::Array4f offset;                         ///< infinite where there is no facet
+        std::array<Eigen::Array4f, 3> center, extent;  ///< of the facets' boxes, half of it
         std::array<std::uint32_t, 4> facet{};
 
         Eigen::Array4f distances(const Eigen::Array4f& unit) const {
