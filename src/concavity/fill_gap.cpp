@@ -43,9 +43,11 @@ using Vertex = Triangulation::Vertex_handle;
 using Cell = Triangulation::Cell_handle;
 using Facet = Triangulation::Facet;
 
-// Rounds of splitting without fewer missing pieces: on fit meshes their number halves in every one
-// or two, where a mesh intersects itself it grows.
-constexpr std::uint32_t kPatience = 8;
+// More missing pieces than so many times the least so far, and some: where a mesh intersects itself
+// their number doubles every round. On fit meshes it falls, with rises by less than three, or a few
+// go round a ring, each mended piece displacing the next.
+constexpr std::size_t kMostGrowth = 3;
+constexpr std::size_t kMostGrown = 100;
 constexpr std::size_t kPointsBetweenChecks = 4096;  // about 20 ms
 
 template <class... Parts>
@@ -143,21 +145,17 @@ std::vector<std::size_t> GapFiller::adopt_flat_pieces() {
 /// while splitting the edges that are missing makes needles without end.
 std::optional<PlanError> GapFiller::make_conforming() {
     std::size_t least = SIZE_MAX;
-    std::uint32_t least_at = 0;
     for (std::uint32_t round = 0;; ++round) {
         const std::vector<std::size_t> pieces = adopt_flat_pieces();
         const std::size_t missing = pieces.size();
         if (missing == 0) return std::nullopt;
-        if (missing < least) {
-            least = missing;
-            least_at = round;
-        }
-        const bool is_stuck = round - least_at >= kPatience;
+        least = std::min(least, missing);
+        const bool is_stuck = missing > kMostGrowth * least + kMostGrown;
         if (is_stuck || round >= limits_.config().max_split_rounds) {
             return error(PlanErrorCode::kDegenerate, missing, " of ", surface_.pieces().size(),
                          " pieces of the surface are no faces of tetrahedra after ", round,
                          " rounds of splitting (max_split_rounds = ",
-                         limits_.config().max_split_rounds, is_stuck ? ", no progress" : "",
+                         limits_.config().max_split_rounds, is_stuck ? ", no longer fewer" : "",
                          "): the mesh intersects itself, or has very thin parts or angles");
         }
         for (const std::size_t i : pieces) surface_.mark_longest(surface_.pieces()[i], points_);

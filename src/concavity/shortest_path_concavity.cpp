@@ -47,6 +47,7 @@ std::vector<Eigen::Vector3d> escape_path(const TriangleMesh& mesh, const OuterHu
                                          const ConcavityField& field, std::uint32_t vertex) {
     std::vector<Eigen::Vector3d> path;
     if (!std::isfinite(field.value_m[vertex])) return path;
+    if (field.parent[vertex] == ConcavityField::kNoParent) return path;  // a value without a way
     std::int32_t at = static_cast<std::int32_t>(vertex);
     while (at >= 0 && path.size() <= mesh.vertices.size()) {
         path.push_back(mesh.vertices[at]);

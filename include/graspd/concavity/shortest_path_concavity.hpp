@@ -72,7 +72,7 @@ Result<ConcavityField> shortest_path_concavity(const TriangleMesh& mesh, const O
                                                const ConcavityConfig& config);
 
 /// The way out from a vertex: the vertex, its bends, and the foot on the hull's plane [m].
-/// Empty for enclosed and unreferenced vertices.
+/// Empty for enclosed and unreferenced vertices, and for all of the tetrahedral method.
 std::vector<Eigen::Vector3d> escape_path(const TriangleMesh& mesh, const OuterHull& hull,
                                          const ConcavityField& field, std::uint32_t vertex);
 

@@ -13,16 +13,16 @@ namespace graspd {
 /// Resolution and limits of the tetrahedral method.
 struct TetrahedralConfig {
     double cell_size = 0.0125;  ///< [1] of the diagonal: spacing of points in the free space
-    std::uint32_t max_cells = 3000000;    ///< more tetrahedra are refused
-    std::uint32_t max_split_rounds = 30;  ///< to make the mesh's faces faces of tetrahedra
-    double max_time_ms = 60000.0;         ///< [ms] of work after which it is given up
-    std::uint64_t seed = 1;               ///< of the points' places
+    std::uint32_t max_cells = 3000000;     ///< more tetrahedra are refused
+    std::uint32_t max_split_rounds = 100;  ///< to make the mesh's faces faces of tetrahedra
+    double max_time_ms = 60000.0;          ///< [ms] of work after which it is given up
+    std::uint64_t seed = 1;                ///< of the points' places
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         visit("cell_size", self.cell_size, 1e-3, 0.5);
         visit("max_cells", self.max_cells, 1u, 100000000u);
-        visit("max_split_rounds", self.max_split_rounds, 0u, 100u);
+        visit("max_split_rounds", self.max_split_rounds, 0u, 1000u);
         visit("max_time_ms", self.max_time_ms, 0.0, 3.6e6);
         visit("seed", self.seed, std::uint64_t{0}, std::uint64_t{1} << 62);
     }
