@@ -19,7 +19,9 @@ constexpr double kJitter = 0.3;
 constexpr double kLeastToSurface = 0.5;
 constexpr double kLeastToHull = 0.3;
 constexpr double kAreaPerHullPoint = 0.43;
-constexpr double kOnPlane = 1e-9;  // [1] of the diagonal: rounding of coordinates on a hull facet
+constexpr double kLeastGap = 0.01;  // thinner gaps are left closed
+constexpr double kFreeShare = 0.9;  // [1] of a vertex's depth that is free around its foot
+constexpr double kOnPlane = 1e-9;   // [1] of the diagonal: rounding of coordinates on a hull facet
 
 double segment_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
     const Vector3d ab = b - a;
@@ -56,13 +58,14 @@ public:
 
     std::optional<PlanError> add_inside();
     std::optional<PlanError> add_on_facet(const HullFacet& facet);
+    std::optional<PlanError> add_above_vertices();
     std::vector<Vector3d> take() { return std::move(points_); }
 
 private:
     /// In [-1, 1); spelled out, as the standard's distributions differ between libraries.
     double draw() { return static_cast<double>(random_() >> 11) * 0x1p-52 - 1.0; }
 
-    bool near_surface(const Vector3d& point) const;
+    bool near_surface(const Vector3d& point, double within_m) const;
     bool in_gap(const Vector3d& point) const;
     std::vector<Vector2d> outline(const HullFacet& facet, const Eigen::Matrix<double, 3, 2>& axes,
                                   const Vector3d& origin) const;
@@ -78,8 +81,7 @@ private:
     std::vector<Vector3d> points_;
 };
 
-bool GapPoints::near_surface(const Vector3d& point) const {
-    const double within_m = kLeastToSurface * cell_m_;
+bool GapPoints::near_surface(const Vector3d& point, double within_m) const {
     OrientedBox box;
     box.pose.translation() = point;
     return std::ranges::any_of(bvh_.faces_near(box, within_m), [&](std::uint32_t f) {
@@ -90,8 +92,8 @@ bool GapPoints::near_surface(const Vector3d& point) const {
 }
 
 bool GapPoints::in_gap(const Vector3d& point) const {
-    return planes_.nearest(point).distance_m > kLeastToHull * cell_m_ && !near_surface(point) &&
-           !bvh_.contains(point);
+    return planes_.nearest(point).distance_m > kLeastToHull * cell_m_ &&
+           !near_surface(point, kLeastToSurface * cell_m_) && !bvh_.contains(point);
 }
 
 std::optional<PlanError> GapPoints::add_inside() {
@@ -165,10 +167,29 @@ std::optional<PlanError> GapPoints::add_on_facet(const HullFacet& facet) {
             const Vector2d p = begin + spacing_m * place;
             if (!inside_outline(corners, p)) continue;
             const Vector3d point = origin + axes * p;
-            if (!near_surface(point)) points_.push_back(point);
+            if (!near_surface(point, kLeastToSurface * cell_m_)) points_.push_back(point);
         }
     }
     return std::nullopt;
+}
+
+/// In a gap thinner than the cells no point of a grid keeps its distance, and the way out would end
+/// at the gap's rim. So the hull gets a point straight above each vertex of such a gap: it breaks
+/// no face, as it lies outside the least sphere around any face at its vertex.
+std::optional<PlanError> GapPoints::add_above_vertices() {
+    std::vector<std::uint32_t> used;
+    for (const Triangle& t : mesh_.faces) used.insert(used.end(), t.begin(), t.end());
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const std::uint32_t v : used) {
+        const Vector3d& vertex = mesh_.vertices[v];
+        const HullPlaneTree::Nearest nearest = planes_.nearest(vertex);
+        const double depth_m = nearest.distance_m;
+        if (depth_m < kLeastGap * cell_m_ || depth_m > cell_m_) continue;
+        const Vector3d foot = vertex + depth_m * planes_.facet(nearest.facet).normal;
+        if (!near_surface(foot, kFreeShare * depth_m)) points_.push_back(foot);
+    }
+    return limits_.exceeded(kCellsPerPoint * points_.size());
 }
 
 }  // namespace
@@ -181,6 +202,7 @@ Result<std::vector<Vector3d>> gap_points(const TriangleMesh& mesh, const OuterHu
     for (const HullFacet& facet : hull.facets) {
         if (auto error = points.add_on_facet(facet)) return *std::move(error);
     }
+    if (auto error = points.add_above_vertices()) return *std::move(error);
     return points.take();
 }
 

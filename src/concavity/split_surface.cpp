@@ -39,7 +39,7 @@ Triangle from_edge(const Triangle& piece, std::size_t k) {
 /// fold.
 bool is_flat_and_convex(const Vector3d& a, const Vector3d& b, const Vector3d& c,
                         const Vector3d& d) {
-    const Vector3d twice_area = (b - a).cross(c - a) + (d - b).cross(a - b);
+    const Vector3d twice_area = (b - a).cross(c - a) + (a - b).cross(d - b);
     const Vector3d normal = twice_area.stableNormalized();
     const Eigen::Vector4d height(normal.dot(a), normal.dot(b), normal.dot(c), normal.dot(d));
     if (height.maxCoeff() - height.minCoeff() > kFlat) return false;

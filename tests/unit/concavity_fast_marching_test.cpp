@@ -82,10 +82,13 @@ TEST(SplitSurface, StaysTheSameSurface) {
 
 // A roof is not flat: its ridge stays.
 TEST(SplitSurface, TurnsNoEdgeThatBends) {
-    const std::vector<Vector3d> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}, {0, -1, 0.5}};
+    const std::vector<Vector3d> points{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0.5}, {0.5, -1, 0.5}};
     SplitSurface surface({{0, 1, 2}, {1, 0, 3}});
     const auto has_other = [](std::uint32_t a, std::uint32_t b) { return a + b != 1; };
     EXPECT_EQ(surface.flip_flat({0, 1}, has_other, points), 0u);
+    std::vector<Vector3d> flat = points;
+    for (Vector3d& point : flat) point.z() = 0.0;
+    EXPECT_EQ(surface.flip_flat({0, 1}, has_other, flat), 1u);
 }
 
 }  // namespace

@@ -114,6 +114,20 @@ TEST(TetrahedralConcavity, IsZeroOnTheHull) {
     }
 }
 
+// Where top and end of a channel's hull meet, a tetrahedron with corners on both cuts that edge
+// off. Its face is no part of the hull: a front that started on it would be up to 1 - 1/sqrt(2)
+// short.
+TEST(TetrahedralConcavity, StartsOnFacetsNotAcrossTheirEdges) {
+    const auto answers = test::straight_answers(5000);
+    const auto channel = std::ranges::find(answers, "channel", &test::ConcavityAnswer::name);
+    ASSERT_NE(channel, answers.end());
+    const ConcavityField field = field_of(test::moved(channel->mesh, test::random_pose(5)));
+    ASSERT_EQ(field.value_m.size(), channel->mesh.vertices.size());
+    for (std::size_t v = 0; v < field.value_m.size(); ++v) {
+        EXPECT_GE(field.value_m[v], 0.8 * channel->value_m(channel->mesh.vertices[v]));
+    }
+}
+
 // A wall a tenth of a cell thick holds the front back: the floor of a cup 0.08 deep is 0.08 off,
 // not the thickness of its bottom.
 TEST(TetrahedralConcavity, DoesNotLeakThroughAThinWall) {
