@@ -34,8 +34,8 @@ struct TetrahedralConfig {
 /// and Vladimirsky, Fast methods for the Eikonal equation on unstructured meshes, PNAS 2000.
 /// Deviation: CGAL 5.5 has no constrained Delaunay tetrahedra in 3-D. A plain Delaunay
 /// tetrahedralisation takes in the vertices, points of a jittered grid between mesh and hull and
-/// points on the hull; edges and faces of the mesh that it lacks are split at midpoints until every
-/// piece is there. So the cells are no longer than about cell_size wherever the gap is wider, and
+/// points on the hull; faces of the mesh that it lacks are cut anew where the mesh is flat, else
+/// split at midpoints of edges, until every piece is there. So the cells are no longer than about cell_size wherever the gap is wider, and
 /// the error shrinks with it.
 ///
 /// Values carry no way out: reached vertices are flagged kPath without parent (the value is an
