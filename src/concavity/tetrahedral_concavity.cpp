@@ -69,7 +69,7 @@ UsedMesh used_part(const TriangleMesh& mesh) {
 
 /// The gap between the mesh and its hull in the unit frame; the mesh's vertices come first.
 Result<Gap> tetrahedralize(const UsedMesh& used, const UnitFrame& frame,
-                           std::vector<Vector3d> extra_m, const WorkLimits& limits) {
+                           const std::vector<Vector3d>& extra_m, const WorkLimits& limits) {
     std::vector<Vector3d> points;
     for (const Vector3d& p : used.mesh.vertices) points.push_back(frame.to_unit(p));
     for (const Vector3d& p : extra_m) points.push_back(frame.to_unit(p));
@@ -126,10 +126,10 @@ Result<ConcavityField> tetrahedral_concavity(const TriangleMesh& mesh, const Out
     }
     const WorkLimits limits(config);
     const UnitFrame frame = unit_frame(mesh);
-    auto extra = gap_points(mesh, hull, bvh, config.cell_size * frame.diagonal_m, limits);
+    const auto extra = gap_points(mesh, hull, bvh, config.cell_size * frame.diagonal_m, limits);
     if (!extra) return extra.error();
     const UsedMesh used = used_part(mesh);
-    const auto gap = tetrahedralize(used, frame, std::move(extra).value(), limits);
+    const auto gap = tetrahedralize(used, frame, extra.value(), limits);
     if (!gap) return gap.error();
     const Tetrahedra& space = gap.value().space;
     const auto unit = march_front(space, sources_on(hull, space, frame));

@@ -35,8 +35,8 @@ struct TetrahedralConfig {
 /// Deviation: CGAL 5.5 has no constrained Delaunay tetrahedra in 3-D. A plain Delaunay
 /// tetrahedralisation takes in the vertices, points of a jittered grid between mesh and hull and
 /// points on the hull; faces of the mesh that it lacks are cut anew where the mesh is flat, else
-/// split at midpoints of edges, until every piece is there. So the cells are no longer than about cell_size wherever the gap is wider, and
-/// the error shrinks with it.
+/// split at midpoints of edges, until every piece is there. So the cells are no longer than about
+/// cell_size wherever the gap is wider, and the error shrinks with it.
 ///
 /// Values carry no way out: reached vertices are flagged kPath without parent (the value is an
 /// approximation, not a bound), those on the hull have exactly 0, those that the front does not
