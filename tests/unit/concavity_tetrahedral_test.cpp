@@ -128,6 +128,21 @@ TEST(TetrahedralConcavity, StartsOnFacetsNotAcrossTheirEdges) {
     }
 }
 
+// A hollow 1 mm deep and 50 mm wide, cells of 6 mm: the way out is straight up, not to the rim.
+TEST(TetrahedralConcavity, LeavesAShallowHollowStraight) {
+    const TriangleMesh block = test::blind_hole_block({0.08, 0.08, 0.03}, 0.05, 0.001, 2000);
+    const ConcavityField field = field_of(test::moved(block, test::random_pose(6)));
+    ASSERT_EQ(field.value_m.size(), block.vertices.size());
+    int floor = 0;
+    for (std::size_t v = 0; v < block.vertices.size(); ++v) {
+        if (std::abs(block.vertices[v].z() + 0.001) > 1e-9) continue;
+        if (block.vertices[v].head<2>().cwiseAbs().maxCoeff() > 0.02) continue;
+        ++floor;
+        EXPECT_NEAR(field.value_m[v], 0.001, 1e-4);
+    }
+    EXPECT_GT(floor, 20);
+}
+
 // A wall a tenth of a cell thick holds the front back: the floor of a cup 0.08 deep is 0.08 off,
 // not the thickness of its bottom.
 TEST(TetrahedralConcavity, DoesNotLeakThroughAThinWall) {
