@@ -28,7 +28,7 @@ int run_plan(const PlanArguments& plan, const std::string& config_file,
 int run_request(const PlanArguments& plan, const DdsArguments& dds, const OutputArguments& output);
 
 /// Prints the concavity of every vertex or point of a file, in the file's order.
-/// @param method  any_angle; tetrahedral is an error
+/// @param method  any_angle, tetrahedral, or empty: as configured
 int run_concavity(const ObjectArguments& object, const std::string& method,
                   const std::string& config_file, const OutputArguments& output);
 

@@ -9,11 +9,7 @@ namespace graspd::cli {
 
 int run_concavity(const ObjectArguments& arguments, const std::string& method,
                   const std::string& config_file, const OutputArguments& output) {
-    if (method != "any_angle") {
-        return fail({PlanErrorCode::kUnsupported,
-                     "--method = " + method + " is not served yet, any_angle is"});
-    }
-    const auto config = planner_settings(config_file, "");
+    const auto config = planner_settings(config_file, method);
     if (!config.ok()) return fail(config.error());
     const auto object = read_object(arguments.file, arguments.scale);
     if (!object.ok()) return fail(object.error());

@@ -3,6 +3,7 @@
 
 #include "commands.hpp"
 #include "exit_code.hpp"
+#include "graspd/concavity/vertex_concavity.hpp"
 #include "graspd/config/version.hpp"
 
 namespace {
@@ -16,10 +17,11 @@ struct Arguments {
     DdsArguments dds;
     std::string units;
     std::string config_file;
-    std::string method = "any_angle";  ///< of `concavity`
+    std::string method;  ///< of `concavity`; empty: as configured
 };
 
-const std::vector<std::string> kMethods = {"any_angle", "tetrahedral"};
+const std::vector<std::string> kMethods(graspd::kConcavityMethods.begin(),
+                                        graspd::kConcavityMethods.end());
 
 void add_object(CLI::App& command, Arguments& to) {
     command.add_option("FILE", to.plan.object.file, "STL, OBJ, OFF, PLY or PCD")->required();
@@ -77,7 +79,8 @@ void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* plan = app.add_subcommand("plan", "plan grasps in this process");
     add_plan(*plan, to);
     add_config(*plan, to);
-    plan->add_option("--concavity", to.plan.concavity, "method")->check(CLI::IsMember(kMethods));
+    plan->add_option("--concavity", to.plan.concavity, "how concavity is computed")
+        ->check(CLI::IsMember(kMethods));
     plan->callback([&] { run = [&] { return run_plan(to.plan, to.config_file, to.output); }; });
 
 #ifdef GRASPD_WITH_DDS
@@ -88,9 +91,8 @@ void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     add_object(*concavity, to);
     add_output(*concavity, to);
     add_config(*concavity, to);
-    concavity->add_option("--method", to.method, "how it is computed")
-        ->check(CLI::IsMember(kMethods))
-        ->capture_default_str();
+    concavity->add_option("--method", to.method, "how it is computed; default: as configured")
+        ->check(CLI::IsMember(kMethods));
     concavity->callback([&] {
         run = [&] { return run_concavity(to.plan.object, to.method, to.config_file, to.output); };
     });

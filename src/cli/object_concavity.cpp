@@ -36,12 +36,13 @@ Result<StoredMesh> to_mesh(const ObjectFile& object, const TriangulateCloudConfi
     return stored;
 }
 
-Result<ConcavityField> concavity_of(const TriangleMesh& mesh, const ConcavityConfig& config) {
+Result<ConcavityField> concavity_of(const TriangleMesh& mesh, const PlannerConfig& config) {
     const auto hull = outer_hull(mesh.vertices);
     if (!hull.ok()) return hull.error();
-    const double tolerance_m =
-        mesh_diagonal_m(mesh) * config.start_offset / kOffsetOverRayTolerance;
-    return shortest_path_concavity(mesh, hull.value(), TriangleBvh(mesh, tolerance_m), config);
+    const double tolerance_m = mesh_diagonal_m(mesh) * config.shortest_path_concavity.start_offset /
+                               kOffsetOverRayTolerance;
+    const TriangleBvh bvh(mesh, tolerance_m);
+    return vertex_concavity(mesh, hull.value(), bvh, config.concavity());
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ Result<ObjectConcavity> object_concavity(const ObjectFile& object, const Planner
     const auto closed = condition_mesh(stored.value().mesh, config.condition_mesh);
     if (!closed.ok()) return closed.error();
     append(result.findings, closed.value().findings);
-    const auto field = concavity_of(closed.value().mesh, config.shortest_path_concavity);
+    const auto field = concavity_of(closed.value().mesh, config);
     if (!field.ok()) return field.error();
     for (const std::int32_t vertex : stored.value().vertex_of_record) {
         const std::int32_t place =

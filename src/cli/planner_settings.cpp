@@ -12,10 +12,7 @@ Result<PlannerConfig> planner_settings(const std::string& config_file,
         if (!loaded.ok()) return loaded.error();
         config = std::move(loaded).value();
     }
-    if (!concavity_method.empty() && concavity_method != "any_angle") {
-        return PlanError{PlanErrorCode::kUnsupported,
-                         "--concavity = " + concavity_method + " is not served yet"};
-    }
+    if (!concavity_method.empty()) config.vertex_concavity.method = concavity_method;
     return config;
 }
 

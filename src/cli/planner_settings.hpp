@@ -6,7 +6,8 @@
 
 namespace graspd::cli {
 
-/// The planner's settings from a file (empty: the defaults), with --concavity on top.
+/// The planner's settings from a file (empty: the defaults).
+/// @param concavity_method  takes the place of the file's vertex_concavity.method unless empty
 Result<PlannerConfig> planner_settings(const std::string& config_file,
                                        const std::string& concavity_method);
 

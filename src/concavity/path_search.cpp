@@ -29,6 +29,8 @@ constexpr int kProbeRounds = 4;  // a region may be reached through another one 
 // and by the bends that most ways use and the nearest planes, of which each vertex tries a few.
 constexpr std::size_t kBendLookouts = 128;
 constexpr std::size_t kMostBends = 512;
+constexpr std::size_t kOuterTries = 4;
+constexpr std::size_t kHiding = 2;  // of the shortest bends that are all hidden: what hides them
 constexpr std::size_t kTries = 12, kMostTries = 64;  // the latter for bends, which serve many ways
 constexpr double kLeastGain = 1e-4;                  // [1] of the value
 constexpr double kBesideFacet = 0.01;  // [1] of the diagonal: how far from a facet a foot may lie
@@ -307,20 +309,42 @@ private:
     std::size_t tries_, count_ = 0;
 };
 
-void PathSearch::consider_listed(std::uint32_t v, const Shortlist& list, Way& way) {
+/// @return whether one of the list was taken
+bool PathSearch::consider_listed(std::uint32_t v, const Shortlist& list, Way& way) {
     for (const auto& [length_m, parent] : list.entries()) {
         if (!consider(v, parent, way)) continue;
         straighten(v, way);
-        return;
+        return true;
+    }
+    return false;
+}
+
+/// Tries the corners of the face that hides a bend: often the next ones to bend over.
+void PathSearch::consider_hiding(std::uint32_t v, std::int32_t bend, Way& way) {
+    const Eigen::Vector3d& from = ground_.lifted[v];
+    const Eigen::Vector3d to_bend = ground_.lifted[static_cast<std::size_t>(bend)] - from;
+    const double length_m = to_bend.norm();
+    const auto hit = bvh_.first_hit(from, to_bend / length_m, length_m);
+    if (!hit) return;
+    for (const std::uint32_t u : ground_.mesh.faces[hit->face]) {
+        if (finished(u) && consider(v, static_cast<std::int32_t>(u), way)) straighten(v, way);
     }
 }
 
-/// Tries the bends of a pool, of those that promise a gain the shortest first.
+/// Tries the bends of a pool, of those that promise a gain the shortest first. Vertices on the hull
+/// come apart: where they are near, behind a wall, they would crowd out all others.
 void PathSearch::consider_pool(std::uint32_t v, const BendPool& pool, std::size_t tries, Way& way) {
     const double limit_m = way.value_m * (1.0 - kLeastGain);
-    Shortlist list(*this, v, limit_m, tries);
-    pool.visit_promising(v, limit_m, [&](std::int32_t bend) { list.note(bend); });
-    consider_listed(v, list, way);
+    Shortlist inner(*this, v, limit_m, tries), outer(*this, v, limit_m, kOuterTries);
+    pool.visit_promising(v, limit_m, [&](std::int32_t bend) {
+        const bool on_hull = field_.value_m[static_cast<std::size_t>(bend)] <= ground_.offset_m;
+        (on_hull ? outer : inner).note(bend);
+    });
+    if (consider_listed(v, outer, way) || consider_listed(v, inner, way)) return;
+    const std::size_t hidden = std::min(kHiding, inner.entries().size());
+    for (const auto& [length_m, bend] : inner.entries().first(hidden)) {
+        consider_hiding(v, bend, way);
+    }
 }
 
 /// Tries the hull's planes that are nearer than the way is long and lie ahead of v, the nearest

@@ -64,7 +64,8 @@ private:
     std::vector<std::uint32_t> bent_vertices() const;
     std::vector<std::uint32_t> finished_vertices() const;
     std::vector<std::uint32_t> most_used_bends() const;
-    void consider_listed(std::uint32_t v, const Shortlist& list, Way& way);
+    bool consider_listed(std::uint32_t v, const Shortlist& list, Way& way);
+    void consider_hiding(std::uint32_t v, std::int32_t bend, Way& way);
     void consider_planes(std::uint32_t v, Way& way);
     void consider_pool(std::uint32_t v, const BendPool& pool, std::size_t tries, Way& way);
     bool shorten_bends(bool with_lookouts);

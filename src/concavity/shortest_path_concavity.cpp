@@ -64,6 +64,7 @@ std::vector<Eigen::Vector3d> points_of_way(const ConcavityField& field, std::uin
     std::vector<Eigen::Vector3d> path;
     end = ConcavityField::kNoParent;
     if (!std::isfinite(field.value_m[vertex])) return path;
+    if (field.parent[vertex] == ConcavityField::kNoParent) return path;  // a value without a way
     const auto vertices = static_cast<std::int32_t>(field.value_m.size());
     const std::size_t most = field.value_m.size() + field.edge_bends.size();
     std::int32_t at = static_cast<std::int32_t>(vertex);

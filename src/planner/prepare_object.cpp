@@ -54,13 +54,15 @@ Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointClou
             object.mesh_P, ray_tolerance_m(object.mesh_P, config.shortest_path_concavity));
     });
     log.out("base/triangle_bvh", 1);
-    auto field = log.run("concavity/shortest_path_concavity", object.mesh_P.vertices.size(), [&] {
-        return shortest_path_concavity(object.mesh_P, object.hull_P, *object.tree_P,
-                                       config.shortest_path_concavity);
+    const char* stage = config.vertex_concavity.method == "tetrahedral"
+                            ? "concavity/tetrahedral_concavity"
+                            : "concavity/shortest_path_concavity";
+    auto field = log.run(stage, object.mesh_P.vertices.size(), [&] {
+        return vertex_concavity(object.mesh_P, object.hull_P, *object.tree_P, config.concavity());
     });
     if (!field) return field.error();
     object.field = std::move(field).value();
-    log.out("concavity/shortest_path_concavity", object.field.value_m.size());
+    log.out(stage, object.field.value_m.size());
     return object;
 }
 

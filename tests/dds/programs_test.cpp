@@ -104,8 +104,8 @@ TEST_F(ProgramsTest, GraspctlRequestPrintsWhatADaemonPlans) {
     ChildProcess none(GRASPCTL_PROGRAM, {"request", wide.path(), "--domain", domain});
     EXPECT_EQ(none.wait_exit(), 3) << none.errors();
     EXPECT_THAT(none.errors(), HasSubstr("NO_GRASP"));
-    // A single triangle is no solid: INVALID_REQUEST, exit code 2.
-    const TemporaryFile flat("flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    // A line is no solid: INVALID_REQUEST, exit code 2.
+    const TemporaryFile flat("flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n");
     ChildProcess invalid(GRASPCTL_PROGRAM, {"request", flat.path(), "--domain", domain});
     EXPECT_EQ(invalid.wait_exit(), 2) << invalid.errors();
     EXPECT_THAT(invalid.errors(), HasSubstr("INVALID_REQUEST"));

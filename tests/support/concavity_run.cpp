@@ -16,4 +16,11 @@ ConcavityRun run_concavity(const TriangleMesh& mesh, const ConcavityConfig& conf
     return {std::move(hull).value(), std::move(field).value()};
 }
 
+Result<ConcavityField> run_tetrahedral(const TriangleMesh& mesh, const TetrahedralConfig& config) {
+    const auto hull = outer_hull(mesh.vertices);
+    if (!hull.ok()) return hull.error();
+    const TriangleBvh bvh(mesh, 1e-6 * mesh_diagonal_m(mesh));
+    return tetrahedral_concavity(mesh, hull.value(), bvh, config);
+}
+
 }  // namespace graspd::test

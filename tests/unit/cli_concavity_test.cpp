@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "commands.hpp"
@@ -178,12 +179,47 @@ TEST_F(ConcavityCommand, WritesAFileInTheFilesOrder) {
     EXPECT_EQ(lines, vertices_.size());
 }
 
-TEST_F(ConcavityCommand, SaysWhatItDoesNotServe) {
+// On the floor, away from the ends, the way is straight up: 5 cm, here with cells of a tenth of the
+// diagonal. The method of the file is as good as the one of the command line, which goes before it.
+TEST_F(ConcavityCommand, MethodComesFromTheCommandLineElseFromTheFile) {
+    const std::string config = temporary(".yaml");
+    const auto flags_with = [&](const std::string& method, const std::string& in_file) {
+        std::ofstream(config) << "vertex_concavity: {method: " << in_file << "}\n"
+                              << "tetrahedral_concavity: {cell_size: 0.1}\n";
+        EXPECT_EQ(run_concavity(object_, method, config, output_), 0);
+        std::ifstream file(output_.out);
+        std::size_t index = 0;
+        double value_m = -1.0;
+        std::string flag;
+        std::set<std::string> flags;
+        while (file >> index >> value_m >> flag) {
+            flags.insert(flag);
+            const Vector3d& p = vertices_.at(index);
+            const bool on_floor = std::abs(p.x()) < 1.99 && std::abs(p.z()) < 0.01;
+            if (on_floor && std::abs(p.y()) < 2.0) {
+                EXPECT_NEAR(value_m, 0.05, 0.0025);
+            }
+        }
+        return flags;
+    };
+    const std::set<std::string> front = {"path"}, rays = {"exact", "path"};
+    EXPECT_EQ(flags_with("tetrahedral", "any_angle"), front);
+    EXPECT_EQ(flags_with("", "tetrahedral"), front);
+    EXPECT_EQ(flags_with("any_angle", "tetrahedral"), rays);
+    EXPECT_EQ(flags_with("", "any_angle"), rays);
+    std::filesystem::remove(config);
+}
+
+// A method that fails is an error, not a reason for another one.
+TEST_F(ConcavityCommand, NeverFallsBack) {
+    const std::string config = temporary(".yaml");
+    std::ofstream(config) << "tetrahedral_concavity: {max_cells: 10}\n";
     testing::internal::CaptureStderr();
-    EXPECT_EQ(run_concavity(object_, "tetrahedral", "", output_), 2);
+    EXPECT_EQ(run_concavity(object_, "tetrahedral", config, output_), 2);
     EXPECT_THAT(testing::internal::GetCapturedStderr(),
-                HasSubstr("--method = tetrahedral is not served yet"));
+                HasSubstr("tetrahedral_concavity.max_cells = 10 is passed"));
     EXPECT_FALSE(std::filesystem::exists(output_.out));
+    std::filesystem::remove(config);
 }
 
 TEST_F(ConcavityCommand, NamesTheFileThatFailed) {

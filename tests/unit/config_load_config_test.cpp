@@ -123,6 +123,22 @@ TEST_F(LoadConfig, AValueOutOfRangeIsNamedWithFileKeyValueAndRange) {
     EXPECT_THAT(error_of("shift: 11\n"), HasSubstr("shift = 11 is outside [-10, 10]"));
 }
 
+// A parameter with named values takes these and no other, and says which they are.
+TEST_F(LoadConfig, AChoiceIsOneOfItsNames) {
+    const auto chosen =
+        load_config<PlannerConfig>(write("vertex_concavity: {method: tetrahedral}\n"));
+    ASSERT_TRUE(chosen.ok()) << chosen.error().detail;
+    EXPECT_EQ(chosen.value().vertex_concavity.method, "tetrahedral");
+    const auto method_error = [&](const std::string& text) {
+        const auto loaded = load_config<PlannerConfig>(write(text));
+        return loaded.ok() ? "" : loaded.error().detail;
+    };
+    EXPECT_THAT(method_error("vertex_concavity: {method: fast}\n"),
+                HasSubstr("vertex_concavity.method = fast is none of any_angle, tetrahedral"));
+    EXPECT_THAT(method_error("vertex_concavity: {method: [fast]}\n"),
+                HasSubstr("must be a text in [any_angle, tetrahedral]"));
+}
+
 TEST_F(LoadConfig, ARepeatedKeyIsRefused) {
     EXPECT_THAT(error_of("inner: {ratio: 0.5, ratio: 0.6}\n"), HasSubstr("inner.ratio is given"));
 }

@@ -46,6 +46,27 @@ TEST(Plan, KeepsToTheSourcesThatAreAskedFor) {
               PlanStatus::kNoGrasp);
 }
 
+// The method is the config's, and its error is the reply's: no other method stands in for it.
+TEST(Plan, UsesTheConcavityMethodOfTheConfig) {
+    const PlanRequest request =
+        request_for(test::box_hourglass({0.06, 0.048, 0.01}, 0.02, 0.03, 1000));
+    PlannerConfig config;
+    config.vertex_concavity.method = "tetrahedral";
+    config.tetrahedral_concavity.cell_size = 0.05;
+    const PlanReply reply = planned(request, config);
+    EXPECT_EQ(reply.status, PlanStatus::kOk) << reply.message;
+    const auto has_stage = [&](const char* name) {
+        return std::ranges::count(reply.report.stages, name, &StageReport::name) > 0;
+    };
+    EXPECT_TRUE(has_stage("concavity/tetrahedral_concavity"));
+    EXPECT_FALSE(has_stage("concavity/shortest_path_concavity"));
+    config.tetrahedral_concavity.max_cells = 10;
+    const PlanReply refused = plan(request, config);
+    EXPECT_EQ(refused.status, PlanStatus::kInvalidRequest);
+    EXPECT_NE(refused.message.find("max_cells = 10 is passed"), std::string::npos)
+        << refused.message;
+}
+
 TEST(Plan, ReturnsNoMoreThanAreAskedFor) {
     PlanRequest request = request_for(test::box({0.06, 0.04, 0.08}, 500));
     for (const std::uint32_t most : {1U, 2U, 7U, 1000U}) {

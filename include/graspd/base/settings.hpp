@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "graspd/base/result.hpp"
@@ -25,6 +28,19 @@ template <class T>
 concept Settings = requires(T& t) {
     T::describe(t, [](const char*, auto&, auto...) {});
 };
+
+/// The texts that a parameter may have: visit("method", self.method, kMethods).
+using Choices = std::span<const std::string_view>;
+
+/// "one, two, three".
+inline std::string listed(Choices choices) {
+    std::string text;
+    for (const std::string_view choice : choices) {
+        text += text.empty() ? "" : ", ";
+        text += choice;
+    }
+    return text;
+}
 
 namespace detail {
 
@@ -47,6 +63,11 @@ struct RangeChecker {
         text << prefix << name << " = " << value << " is outside [" << least << ", " << greatest
              << "]";
         error = PlanError{PlanErrorCode::kInvalidInput, text.str()};
+    }
+    void operator()(const char* name, const std::string& value, Choices choices) {
+        if (error || std::ranges::find(choices, value) != choices.end()) return;
+        error = PlanError{PlanErrorCode::kInvalidInput,
+                          prefix + name + " = " + value + " is none of " + listed(choices)};
     }
     void operator()(const char*, const bool&) {}
     void operator()(const char*, const std::string&) {}

@@ -105,7 +105,8 @@ Result<MeasuredConcavity> measure_concavity(const TriangleMesh& mesh,
                                             const ConcavityConfig& config);
 
 /// The way out from a vertex: the vertex, its bends, and the foot on the hull's plane [m]. Its
-/// length is the vertex's value. Empty for enclosed and unreferenced vertices.
+/// length is the vertex's value. Empty for enclosed and unreferenced vertices, and for all of the
+/// tetrahedral method.
 std::vector<Eigen::Vector3d> escape_path(const TriangleMesh& mesh, const OuterHull& hull,
                                          const ConcavityField& field, std::uint32_t vertex);
 

@@ -34,7 +34,7 @@ namespace config_detail {
 struct SettingRef {
     std::vector<std::string> path;  ///< group names, then the parameter's
     std::variant<bool*, double*, std::int32_t*, std::uint32_t*, std::uint64_t*, std::string*> field;
-    std::string range;  ///< "[least, greatest]", empty for bool and string
+    std::string range;  ///< "[least, greatest]" or "[one, other]", empty for bool and free text
 };
 
 /// Flattens a settings struct into references, in the order of describe().
@@ -53,6 +53,9 @@ struct SettingCollector {
         std::ostringstream range;
         range << '[' << least << ", " << greatest << ']';
         add(name, &value, range.str());
+    }
+    void operator()(const char* name, std::string& value, Choices choices) {
+        add(name, &value, '[' + listed(choices) + ']');
     }
     void operator()(const char* name, bool& value) { add(name, &value, ""); }
     void operator()(const char* name, std::string& value) { add(name, &value, ""); }

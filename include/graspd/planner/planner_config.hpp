@@ -1,7 +1,7 @@
 #pragma once
 
 #include "graspd/collision/manipulability.hpp"
-#include "graspd/concavity/shortest_path_concavity.hpp"
+#include "graspd/concavity/vertex_concavity.hpp"
 #include "graspd/contour/boundary_points.hpp"
 #include "graspd/contour/concave_hull.hpp"
 #include "graspd/grasp/force_balance.hpp"
@@ -26,7 +26,9 @@ namespace graspd {
 struct PlannerConfig {
     TriangulateCloudConfig triangulate_cloud;
     ConditionMeshConfig condition_mesh;
+    VertexConcavityConfig vertex_concavity;
     ConcavityConfig shortest_path_concavity;
+    TetrahedralConfig tetrahedral_concavity;
     SampleSurfaceConfig sample_surface;
     ExtractConcaveAreasConfig extract_concave_areas;
     ClusterConcavitiesConfig cluster_concavities;
@@ -48,7 +50,9 @@ struct PlannerConfig {
     static void describe(Self& self, Visitor&& visit) {
         visit("triangulate_cloud", self.triangulate_cloud);
         visit("condition_mesh", self.condition_mesh);
+        visit("vertex_concavity", self.vertex_concavity);
         visit("shortest_path_concavity", self.shortest_path_concavity);
+        visit("tetrahedral_concavity", self.tetrahedral_concavity);
         visit("sample_surface", self.sample_surface);
         visit("extract_concave_areas", self.extract_concave_areas);
         visit("cluster_concavities", self.cluster_concavities);
@@ -65,6 +69,11 @@ struct PlannerConfig {
         visit("score_grasp", self.score_grasp);
         visit("rank_grasps", self.rank_grasps);
         visit("search", self.search);
+    }
+
+    /// For vertex_concavity(); refers to this.
+    ConcavitySettings concavity() const {
+        return {vertex_concavity, shortest_path_concavity, tetrahedral_concavity};
     }
 };
 
