@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #if defined(__SANITIZE_THREAD__)
 #include <sanitizer/tsan_interface.h>
@@ -36,6 +36,21 @@ private:
     char given_ = 0, finished_ = 0;
 };
 
+/// Calls work(i) for every i below count, each as a task of its own.
+void each_alone(std::size_t count, const std::function<void(std::size_t i)>& work) {
+    Handover handover;
+    handover.give();
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+            handover.take();
+            for (std::size_t i = range.begin(); i != range.end(); ++i) work(i);
+            handover.finish();
+        },
+        tbb::simple_partitioner());
+    handover.wait();
+}
+
 }  // namespace
 
 void for_blocks(std::size_t count, std::size_t block,
@@ -45,26 +60,11 @@ void for_blocks(std::size_t count, std::size_t block,
         if (count > 0) work(0, count);
         return;
     }
-    Handover handover;
-    handover.give();
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t i) {
-        handover.take();
-        work(i * block, std::min(count, (i + 1) * block));
-        handover.finish();
-    });
-    handover.wait();
+    each_alone(blocks, [&](std::size_t i) { work(i * block, std::min(count, (i + 1) * block)); });
 }
 
-void run_both(const std::function<void()>& one, const std::function<void()>& other) {
-    Handover handover;
-    handover.give();
-    const auto shared = [&](const std::function<void()>& work) {
-        handover.take();
-        work();
-        handover.finish();
-    };
-    tbb::parallel_invoke([&] { shared(one); }, [&] { shared(other); });
-    handover.wait();
+void run_together(const std::vector<std::function<void()>>& work) {
+    each_alone(work.size(), [&](std::size_t i) { work[i](); });
 }
 
 }  // namespace graspd

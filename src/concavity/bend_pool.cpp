@@ -99,12 +99,14 @@ unsigned BendPool::promising(const Viewpoint& from, const Quad& quad) {
                          z = quad.at[2] - from.at[2];
     const Eigen::Array4f length = (x * x + y * y + z * z).sqrt();
     const Eigen::Array4f rise = x * from.normal[0] + y * from.normal[1] + z * from.normal[2];
-    const Eigen::Array4f along = x * quad.normal[0] + y * quad.normal[1] + z * quad.normal[2];
     const Eigen::Array4f shorter = from.limit - length - quad.value;
     const Eigen::Array4f leaves = rise + from.below * length;
+    const unsigned lanes = lanes_not_negative(shorter.min(leaves));
+    if (lanes == 0) return 0;
+    const Eigen::Array4f along = x * quad.normal[0] + y * quad.normal[1] + z * quad.normal[2];
     const Eigen::Array4f on_outline = quad.outline * length - along.abs();
     const Eigen::Array4f presses = along - quad.onward * length;
-    return lanes_not_negative(shorter.min(leaves).min(on_outline.min(presses)));
+    return lanes & lanes_not_negative(on_outline.min(presses));
 }
 
 }  // namespace graspd::concavity_detail

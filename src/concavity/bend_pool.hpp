@@ -22,6 +22,8 @@ public:
     BendPool(const PathGround& ground, const HullPlaneTree& planes, const ConcavityField& field,
              std::span<const std::uint32_t> bends);
 
+    std::size_t size() const { return bends_.size(); }
+
     /// Calls visit(bend) for every bend over which v's way might be shorter than limit_m and taut:
     /// the straight way leaves the solid at v, the bend lies on the outline seen from v, and the
     /// string would press onto the solid there.

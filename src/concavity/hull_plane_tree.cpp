@@ -163,6 +163,7 @@ void HullPlaneTree::facets_ahead(const Eigen::Vector3d& point, double limit_m,
             const Eigen::Array4f rise =
                 pack.normal[0] * up[0] + pack.normal[1] * up[1] + pack.normal[2] * up[2];
             Eigen::Array4f room = (limit + kPad - distance).min(rise - least_rise);
+            if (lanes_not_negative(room) == 0) continue;
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const Eigen::Array4f foot =
                     unit[static_cast<Eigen::Index>(axis)] + distance * pack.normal[axis];

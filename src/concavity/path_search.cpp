@@ -30,6 +30,7 @@ constexpr int kProbeRounds = 4;  // a region may be reached through another one 
 constexpr std::size_t kBendLookouts = 128;
 constexpr std::size_t kMostBends = 512;
 constexpr std::size_t kOuterTries = 4;
+constexpr std::size_t kBendBudget = 8000000, kPlaneBudget = 6000000;  // pairs with a vertex
 constexpr std::size_t kHiding = 2;  // of the shortest bends that are all hidden: what hides them
 constexpr std::size_t kTries = 12, kMostTries = 64;  // the latter for bends, which serve many ways
 constexpr double kLeastGain = 1e-4;                  // [1] of the value
@@ -392,16 +393,19 @@ bool PathSearch::shorten_bends(bool with_lookouts) {
     return shorter;
 }
 
-/// Shortens every way that is not proven: by what the mesh neighbours' ways go through, by planes
-/// and by bends.
+/// Shortens every way that is not proven, by what the mesh neighbours' ways go through and by the
+/// most used bends; as many as the budgets allow, evenly spread, by all vertices and all planes.
 void PathSearch::shorten_all(const std::vector<std::uint32_t>& bent) {
+    const BendPool used(ground_, planes_, field_, most_used_bends());
     const BendPool all(ground_, planes_, field_, finished_vertices());
-    improve(bent, [&](std::uint32_t v, std::size_t, Way& way) {
+    const std::size_t bend_stride = 1 + bent.size() * all.size() / kBendBudget;
+    const std::size_t plane_stride = 1 + bent.size() * planes_.size() / kPlaneBudget;
+    improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {
         for (const std::uint32_t u : ground_.neighbours.of(v)) {
             if (finished(u) && consider(v, field_.parent[u], way)) straighten(v, way);
         }
-        consider_planes(v, way);
-        consider_pool(v, all, kTries, way);
+        if (place % plane_stride == 0) consider_planes(v, way);
+        consider_pool(v, place % bend_stride == 0 ? all : used, kTries, way);
     });
     propagate();
 }

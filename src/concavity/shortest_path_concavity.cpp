@@ -130,14 +130,16 @@ Result<MeasuredConcavity> measure_concavity(const TriangleMesh& mesh,
         if (!hull->ok()) return;
         planes_ms = StepTimer::time_of([&] { planes.emplace(hull->value()); });
     };
-    const auto surface = [&] {
+    const auto rays = [&] {
         tree_ms = StepTimer::time_of([&] {
             measured.tree =
                 std::make_shared<const TriangleBvh>(mesh, ray_tolerance_m(mesh, config));
         });
+    };
+    const auto surface = [&] {
         ground_ms = StepTimer::time_of([&] { ground.emplace(mesh, config); });
     };
-    run_both(outside, surface);
+    run_together({outside, rays, surface});
     if (!hull->ok()) return hull->error();
     measured.times = {
         {"hull", hull_ms}, {"planes", planes_ms}, {"tree", tree_ms}, {"ground", ground_ms}};

@@ -13,8 +13,9 @@ constexpr int kEdgeRounds = 8;         // a bend that reaches an edge's end goes
 constexpr int kInsertions = 4;         // of bends where a slid way is blocked
 constexpr int kHoldBacks = 2;          // halvings of how far the bends slide
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr double kSettled = 1e-5;        // [1] of the length that a round has to gain
+constexpr double kLeastSlide = 3e-4;     // [1] of the length that sliding may gain at most
 constexpr int kSettleRounds = 32;        // of bends in turn, until none moves
-constexpr double kSettled = 1e-7;        // [1] of the edge
 constexpr double kLeastLean = 0.1;       // sine; a flatter floor does not block the perpendicular
 constexpr double kLeastSlope = 0.5;      // cosine of a tilted way to the plane it leaves by
 constexpr int kTiltRounds = 6;           // halvings of the tilt
@@ -131,9 +132,10 @@ bool BendSlider::holds(std::uint32_t from, std::size_t place, const Eigen::Vecto
 }
 
 /// For each bend at a vertex the edge that holds it and along which the way shortens fastest.
-/// @return whether some bend has got one
-bool BendSlider::choose_edges(Chain& chain) const {
-    bool chosen = false;
+/// @return [m] at most so much shorter does the way get before a bend reaches the end of its edge:
+///         a convex length falls fastest where it starts. 0 where no bend has got an edge
+double BendSlider::choose_edges(Chain& chain) const {
+    double gain_m = 0.0;
     for (std::size_t i = 0; i < chain.bends.size(); ++i) {
         Bend& bend = chain.bends[i];
         if (bend.share > 0.0 && bend.share < 1.0) continue;
@@ -153,9 +155,11 @@ bool BendSlider::choose_edges(Chain& chain) const {
             best = gain;
             bend.to = neighbours[place];
         }
-        chosen |= bend.to != bend.from;
+        if (bend.to != bend.from) {
+            gain_m += best * (ground_.mesh.vertices[bend.to] - bend.point).norm();
+        }
     }
-    return chosen;
+    return gain_m;
 }
 
 /// Moves one bend to where the way is shortest with the others held.
@@ -177,25 +181,26 @@ void BendSlider::place(Chain& chain, std::size_t i) const {
     bend.point = base + bend.share * edge;
 }
 
-/// Moves the bends in turn until none moves: the length is convex, so they settle where all of them
-/// together make it least.
+/// Moves the bends in turn until the way hardly gets shorter: the length is convex, so they settle
+/// where all of them together make it least.
 void BendSlider::settle(Chain& chain) const {
+    double known_m = chain.length_m();
     for (int round = 0; round < kSettleRounds; ++round) {
-        double moved = 0.0;
         for (std::size_t i = 0; i < chain.bends.size(); ++i) {
-            Bend& bend = chain.bends[i];
-            if (bend.from == bend.to) continue;
-            const double before = bend.share;
-            place(chain, i);
-            moved = std::max(moved, std::abs(bend.share - before));
+            if (chain.bends[i].from != chain.bends[i].to) place(chain, i);
         }
-        if (moved <= kSettled) return;
+        const double length_m = chain.length_m();
+        if (known_m - length_m <= kSettled * length_m) return;
+        known_m = length_m;
     }
 }
 
 /// Slides all bends, from edge to edge, until none has an edge to go on along.
 void BendSlider::relax(Chain& chain) const {
-    for (int round = 0; round < kEdgeRounds && choose_edges(chain); ++round) settle(chain);
+    const double least_m = kLeastSlide * chain.length_m();
+    for (int round = 0; round < kEdgeRounds && choose_edges(chain) > least_m; ++round) {
+        settle(chain);
+    }
 }
 
 Eigen::Vector3d BendSlider::lifted(const Bend& bend) const {

@@ -55,7 +55,7 @@ private:
     Chain chain_of(std::uint32_t vertex) const;
     bool holds(std::uint32_t from, std::size_t place, const Eigen::Vector3d& before,
                const Eigen::Vector3d& after) const;
-    bool choose_edges(Chain& chain) const;
+    double choose_edges(Chain& chain) const;
     void settle(Chain& chain) const;
     void relax(Chain& chain) const;
     void place(Chain& chain, std::size_t i) const;

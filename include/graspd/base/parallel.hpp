@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <vector>
 
 namespace graspd {
 
@@ -11,7 +12,8 @@ namespace graspd {
 void for_blocks(std::size_t count, std::size_t block,
                 const std::function<void(std::size_t first, std::size_t last)>& work);
 
-/// Runs two pieces of work side by side and returns when both are done.
-void run_both(const std::function<void()>& one, const std::function<void()>& other);
+/// Runs pieces of work side by side, as many at a time as there are threads, and returns when all
+/// are done.
+void run_together(const std::vector<std::function<void()>>& work);
 
 }  // namespace graspd

@@ -64,6 +64,7 @@ public:
     std::uint32_t exit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const;
 
     const HullFacet& facet(std::uint32_t index) const { return facets_[index]; }
+    std::size_t size() const { return facets_.size(); }
 
 private:
     /// The up to four facets of a leaf side by side, in the tree's units.
