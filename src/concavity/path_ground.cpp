@@ -39,6 +39,23 @@ std::vector<float> spread_of_fans(const TriangleMesh& mesh,
     return least;
 }
 
+/// Per vertex whether an edge leads below the plane of its normal: over one where none does, flat
+/// or hollow, no string is taut.
+std::vector<char> falling_fans(const TriangleMesh& mesh,
+                               const std::vector<Eigen::Vector3d>& normals) {
+    constexpr double kFlat = 1e-3;  // sine
+    std::vector<char> falls(mesh.vertices.size(), 0);
+    for (const Triangle& face : mesh.faces) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = face[k];
+            const Eigen::Vector3d edge = mesh.vertices[face[(k + 1) % 3]] - mesh.vertices[v];
+            const double rise = edge.dot(normals[v]);
+            falls[v] |= rise < 0.0 && rise * rise > kFlat * kFlat * edge.squaredNorm();
+        }
+    }
+    return falls;
+}
+
 }  // namespace
 
 PathGround::PathGround(const TriangleMesh& of, const ConcavityConfig& config)
@@ -48,6 +65,7 @@ PathGround::PathGround(const TriangleMesh& of, const ConcavityConfig& config)
       neighbours(of),
       normals(angle_weighted_normals(of)),
       spread(spread_of_fans(of, normals)),
+      can_bend(falling_fans(of, normals)),
       order(near_order(of, diagonal_m)) {
     lifted.reserve(of.vertices.size());
     for (std::size_t v = 0; v < of.vertices.size(); ++v) {

@@ -19,6 +19,7 @@ struct PathGround {
     std::vector<Eigen::Vector3d> normals;
     std::vector<Eigen::Vector3d> lifted;  ///< [m] vertices off the surface: where rays start
     std::vector<float> spread;            ///< sine of the widest angle of a face to the normal
+    std::vector<char> can_bend;           ///< whether some mesh edge falls away from the vertex
     std::vector<std::uint32_t> order;     ///< vertices so that the next is often near
 };
 

@@ -254,13 +254,17 @@ std::vector<std::uint32_t> PathSearch::bent_vertices() const {
     return bent;
 }
 
-/// Vertices with a way out, near ones together.
-std::vector<std::uint32_t> PathSearch::finished_vertices() const {
-    std::vector<std::uint32_t> all;
+/// Finished vertices over which a string may be taut, near ones together: those with a convex edge,
+/// without those in the middle of a face of the hull, which no way from inside comes by.
+std::vector<std::uint32_t> PathSearch::possible_bends() const {
+    const auto on_hull = [&](std::uint32_t v) { return field_.value_m[v] <= ground_.offset_m; };
+    std::vector<std::uint32_t> bends;
     for (const std::uint32_t v : ground_.order) {
-        if (finished(v)) all.push_back(v);
+        if (!finished(v) || !ground_.can_bend[v]) continue;
+        if (on_hull(v) && std::ranges::all_of(ground_.neighbours.of(v), on_hull)) continue;
+        bends.push_back(v);
     }
-    return all;
+    return bends;
 }
 
 /// The bends that most of the ways that are not proven go through, near ones together.
@@ -382,7 +386,7 @@ bool PathSearch::improve(
 bool PathSearch::shorten_bends(bool with_lookouts) {
     std::vector<std::uint32_t> bends = most_used_bends();
     std::erase_if(bends, [&](std::uint32_t v) { return field_.flag[v] != ConcavityFlag::kPath; });
-    const BendPool all(ground_, planes_, field_, finished_vertices());
+    const BendPool all(ground_, planes_, field_, possible_bends());
     const std::size_t stride = 1 + bends.size() / kBendLookouts;
     const bool shorter = improve(bends, [&](std::uint32_t v, std::size_t place, Way& way) {
         consider_planes(v, way);
@@ -397,7 +401,7 @@ bool PathSearch::shorten_bends(bool with_lookouts) {
 /// most used bends; as many as the budgets allow, evenly spread, by all vertices and all planes.
 void PathSearch::shorten_all(const std::vector<std::uint32_t>& bent) {
     const BendPool used(ground_, planes_, field_, most_used_bends());
-    const BendPool all(ground_, planes_, field_, finished_vertices());
+    const BendPool all(ground_, planes_, field_, possible_bends());
     const std::size_t bend_stride = 1 + bent.size() * all.size() / kBendBudget;
     const std::size_t plane_stride = 1 + bent.size() * planes_.size() / kPlaneBudget;
     improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {

@@ -62,7 +62,7 @@ private:
     bool probe_unreached();
 
     std::vector<std::uint32_t> bent_vertices() const;
-    std::vector<std::uint32_t> finished_vertices() const;
+    std::vector<std::uint32_t> possible_bends() const;
     std::vector<std::uint32_t> most_used_bends() const;
     bool consider_listed(std::uint32_t v, const Shortlist& list, Way& way);
     void consider_hiding(std::uint32_t v, std::int32_t bend, Way& way);
