@@ -201,5 +201,63 @@ TEST(HullPlaneTree, TiesGoToTheLowerFacet) {
     EXPECT_EQ(HullPlaneTree(hull).nearest(Vector3d::Zero()).distance_m, 1.0);
 }
 
+// A hint only saves time.
+TEST(HullPlaneTree, AnyHintGivesTheSame) {
+    const TriangleMesh mesh = test::torus(0.06, 0.02, 2000);
+    const OuterHull hull = hull_of(mesh.vertices);
+    const HullPlaneTree tree(hull);
+    for (std::size_t v = 0; v < mesh.vertices.size(); v += 7) {
+        const auto plain = tree.nearest(mesh.vertices[v]);
+        for (std::uint32_t hint = 0; hint < hull.facets.size(); hint += 97) {
+            const auto hinted = tree.nearest(mesh.vertices[v], hint);
+            EXPECT_EQ(hinted.facet, plain.facet);
+            EXPECT_EQ(hinted.distance_m, plain.distance_m);
+        }
+    }
+}
+
+// The facet by which a ray leaves, against every plane one by one.
+TEST(HullPlaneTree, FindsWhereARayLeaves) {
+    for (const TriangleMesh& mesh : {test::box({0.1, 0.2, 0.3}, 12), test::sphere(0.05, 4000),
+                                     test::torus(0.06, 0.02, 2000)}) {
+        const OuterHull hull = hull_of(mesh.vertices);
+        const HullPlaneTree tree(hull);
+        std::mt19937_64 random(10);
+        for (int i = 0; i < 1000; ++i) {
+            const Vector3d from = 0.5 * mesh.vertices[random() % mesh.vertices.size()];
+            const Vector3d along =
+                Vector3d(fraction(random), fraction(random), fraction(random)).normalized();
+            const auto length_m = [&](const HullFacet& facet) {
+                const double slope = facet.normal.dot(along);
+                return slope > 0.0 ? (facet.offset_m - facet.normal.dot(from)) / slope : 1e9;
+            };
+            double least_m = 1e9;
+            for (const HullFacet& facet : hull.facets) {
+                least_m = std::min(least_m, length_m(facet));
+            }
+            EXPECT_NEAR(length_m(tree.facet(tree.exit(from, along))), least_m, 1e-9);
+        }
+    }
+}
+
+// Facets ahead of a point in a box, by hand: from the floor's middle, looking up, the four sides
+// and the top are ahead; the bottom, behind, is not; the top is farther than a limit of 0.15.
+TEST(HullPlaneTree, NamesTheFacetsAhead) {
+    const OuterHull hull = hull_of(test::box({0.2, 0.2, 0.4}, 12).vertices);
+    const HullPlaneTree tree(hull);
+    const Vector3d floor(0.0, 0.0, -0.1);
+    std::vector<std::uint32_t> facets;
+    const auto normals_ahead = [&](double limit_m, double below) {
+        tree.facets_ahead(floor, limit_m, Vector3d::UnitZ(), below, 1e-3, facets);
+        double up = 0.0;
+        for (const std::uint32_t facet : facets) up += tree.facet(facet).normal.z();
+        return std::pair(facets.size(), std::round(up));
+    };
+    EXPECT_EQ(normals_ahead(1.0, 0.1), std::pair(std::size_t{5}, 1.0));
+    EXPECT_EQ(normals_ahead(1.0, 1.0), std::pair(std::size_t{6}, 0.0));
+    EXPECT_EQ(normals_ahead(0.15, 0.1), std::pair(std::size_t{4}, 0.0));
+    EXPECT_EQ(normals_ahead(0.05, 1.0), std::pair(std::size_t{0}, 0.0));
+}
+
 }  // namespace
 }  // namespace graspd
