@@ -1,13 +1,10 @@
 #include "path_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <utility>
 
-#include "bend_pool.hpp"
 #include "graspd/base/parallel.hpp"
 #include "slide_bends.hpp"
 
@@ -16,35 +13,20 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMaxPull = 64;  // bends of one string; a longer one is pulled by later relaxations
-constexpr std::size_t kBlock = 128;  // vertices that one thread takes at a time
 
 // Where no mesh edge leads on, rays look around: from so many vertices of every region without a
 // way out, in so many directions, and so many rays in all.
 constexpr std::size_t kProbedVertices = 16;
-constexpr int kProbeDirections = 32;
 constexpr std::uint32_t kMostProbes = 8192;
 constexpr int kProbeRounds = 4;  // a region may be reached through another one only
 
-// Bent ways are shortened by looking around from so many vertices, each in a few of the directions,
-// and by the bends that most ways use and the nearest planes, of which each vertex tries a few.
-constexpr std::size_t kBendLookouts = 128;
-constexpr std::size_t kMostBends = 512;
-constexpr std::size_t kOuterTries = 4;
-constexpr std::size_t kBendBudget = 8000000, kPlaneBudget = 6000000;  // pairs with a vertex
-constexpr std::size_t kHiding = 2;  // of the shortest bends that are all hidden: what hides them
-constexpr std::size_t kTries = 12, kMostTries = 64;  // the latter for bends, which serve many ways
-constexpr double kLeastGain = 1e-4;                  // [1] of the value
-constexpr double kBesideFacet = 0.01;  // [1] of the diagonal: how far from a facet a foot may lie
-
-using Entry = std::pair<double, std::int32_t>;  ///< length [m] through a parent, the parent
-
 /// Directions spread evenly over the sphere: equal steps in height, golden angles between them.
 /// Each lookout has its own set, turned and shifted against the others'.
-Eigen::Vector3d probe_direction(std::size_t lookout, int index) {
+Eigen::Vector3d probe_direction(std::size_t lookout, int index, int count) {
     constexpr double kGolden = 0.6180339887498949;
     const double turn = kGolden * static_cast<double>(lookout);
     const double shift = turn - std::floor(turn);  // in [0, 1)
-    const double z = 1.0 - 2.0 * (index + shift) / kProbeDirections;
+    const double z = 1.0 - 2.0 * (index + shift) / count;
     const double angle = std::numbers::pi * ((3.0 - std::sqrt(5.0)) * index + 2.0 * turn);
     const double r = std::sqrt(1.0 - z * z);
     return {r * std::cos(angle), r * std::sin(angle), z};
@@ -71,7 +53,7 @@ PathSearch::PathSearch(const PathGround& ground, const HullPlaneTree& planes,
 /// Steps 1 and 2: the distance to the nearest hull plane is a lower bound; where the perpendicular
 /// is free it is the answer.
 void PathSearch::prove_direct() {
-    for_blocks(ground_.order.size(), kBlock, [&](std::size_t first, std::size_t last) {
+    for_blocks(ground_.order.size(), kVerticesAtATime, [&](std::size_t first, std::size_t last) {
         std::uint32_t hint = 0;
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t v = ground_.order[i];
@@ -206,9 +188,9 @@ std::vector<std::uint32_t> PathSearch::unreached_region(std::uint32_t seed,
 bool PathSearch::look_around(std::uint32_t v, std::size_t lookout, int count, Way& way) {
     constexpr int kStep = 13;  // any odd number visits every direction
     bool improved = false;
-    for (int k = 0; k < kProbeDirections && count > 0; ++k) {
-        const int index = k * kStep % kProbeDirections;
-        const Eigen::Vector3d direction = probe_direction(lookout, index);
+    for (int k = 0; k < kAllDirections && count > 0; ++k) {
+        const int index = k * kStep % kAllDirections;
+        const Eigen::Vector3d direction = probe_direction(lookout, index, kAllDirections);
         if (direction.dot(ground_.normals[v]) <= 0.0) continue;
         --count;
         const auto hit = bvh_.first_hit(ground_.lifted[v], direction, ground_.diagonal_m);
@@ -234,8 +216,8 @@ bool PathSearch::probe_unreached() {
         const std::size_t step = 1 + region.size() / kProbedVertices;
         for (std::size_t i = 0; i < region.size() && probes_ < kMostProbes; i += step) {
             Way way = known(region[i]);
-            probes_ += kProbeDirections;
-            if (look_around(region[i], i, kProbeDirections, way)) accept(region[i], way);
+            probes_ += kAllDirections;
+            if (look_around(region[i], i, kAllDirections, way)) accept(region[i], way);
         }
     }
     return !queue_.empty();
@@ -245,192 +227,12 @@ void PathSearch::reach_what_no_edge_reaches() {
     for (int round = 0; round < kProbeRounds && probe_unreached(); ++round) propagate();
 }
 
-/// Vertices whose value is not proven, near ones together.
-std::vector<std::uint32_t> PathSearch::bent_vertices() const {
-    std::vector<std::uint32_t> bent;
-    for (const std::uint32_t v : ground_.order) {
-        if (field_.flag[v] == ConcavityFlag::kPath) bent.push_back(v);
-    }
-    return bent;
-}
-
-/// Finished vertices over which a string may be taut, near ones together: those with a convex edge,
-/// without those in the middle of a face of the hull, which no way from inside comes by.
-std::vector<std::uint32_t> PathSearch::possible_bends() const {
-    const auto on_hull = [&](std::uint32_t v) { return field_.value_m[v] <= ground_.offset_m; };
-    std::vector<std::uint32_t> bends;
-    for (const std::uint32_t v : ground_.order) {
-        if (!finished(v) || !ground_.can_bend[v]) continue;
-        if (on_hull(v) && std::ranges::all_of(ground_.neighbours.of(v), on_hull)) continue;
-        bends.push_back(v);
-    }
-    return bends;
-}
-
-/// The bends that most of the ways that are not proven go through, near ones together.
-std::vector<std::uint32_t> PathSearch::most_used_bends() const {
-    std::vector<std::uint32_t> uses(field_.parent.size(), 0);
-    for (std::size_t v = 0; v < field_.parent.size(); ++v) {
-        if (field_.parent[v] >= 0) ++uses[static_cast<std::size_t>(field_.parent[v])];
-    }
-    std::vector<std::uint32_t> counts;
-    for (const std::uint32_t count : uses) {
-        if (count > 0) counts.push_back(count);
-    }
-    std::uint32_t least = 1;
-    if (counts.size() > kMostBends) {
-        const auto last = counts.begin() + static_cast<std::ptrdiff_t>(kMostBends - 1);
-        std::ranges::nth_element(counts, last, std::greater<>());
-        least = *last;
-    }
-    std::vector<std::uint32_t> bends;
-    for (const std::uint32_t v : ground_.order) {
-        if (uses[v] >= least && bends.size() < kMostBends) bends.push_back(v);
-    }
-    return bends;
-}
-
-/// The few shortest of the candidates that promise a gain, shortest first.
-class PathSearch::Shortlist {
-public:
-    Shortlist(const PathSearch& search, std::uint32_t v, double limit_m, std::size_t tries)
-        : search_(search), v_(v), limit_m_(limit_m), tries_(tries) {}
-
-    void note(std::int32_t parent) {
-        const Entry entry{search_.length_through(v_, parent), parent};
-        if (!(entry.first < limit_m_)) return;
-        if (count_ == tries_ && !(entry < best_[count_ - 1])) return;
-        std::size_t place = count_ < tries_ ? count_++ : count_ - 1;
-        for (; place > 0 && entry < best_[place - 1]; --place) best_[place] = best_[place - 1];
-        best_[place] = entry;
-    }
-    std::span<const Entry> entries() const { return {best_.data(), count_}; }
-
-private:
-    const PathSearch& search_;
-    std::uint32_t v_;
-    double limit_m_;
-    std::array<Entry, kMostTries> best_;
-    std::size_t tries_, count_ = 0;
-};
-
-/// @return whether one of the list was taken
-bool PathSearch::consider_listed(std::uint32_t v, const Shortlist& list, Way& way) {
-    for (const auto& [length_m, parent] : list.entries()) {
-        if (!consider(v, parent, way)) continue;
-        straighten(v, way);
-        return true;
-    }
-    return false;
-}
-
-/// Tries the corners of the face that hides a bend: often the next ones to bend over.
-void PathSearch::consider_hiding(std::uint32_t v, std::int32_t bend, Way& way) {
-    const Eigen::Vector3d& from = ground_.lifted[v];
-    const Eigen::Vector3d to_bend = ground_.lifted[static_cast<std::size_t>(bend)] - from;
-    const double length_m = to_bend.norm();
-    const auto hit = bvh_.first_hit(from, to_bend / length_m, length_m);
-    if (!hit) return;
-    for (const std::uint32_t u : ground_.mesh.faces[hit->face]) {
-        if (finished(u) && consider(v, static_cast<std::int32_t>(u), way)) straighten(v, way);
-    }
-}
-
-/// Tries the bends of a pool, of those that promise a gain the shortest first. Vertices on the hull
-/// come apart: where they are near, behind a wall, they would crowd out all others.
-void PathSearch::consider_pool(std::uint32_t v, const BendPool& pool, std::size_t tries, Way& way) {
-    const double limit_m = way.value_m * (1.0 - kLeastGain);
-    Shortlist inner(*this, v, limit_m, tries), outer(*this, v, limit_m, kOuterTries);
-    pool.visit_promising(v, limit_m, [&](std::int32_t bend) {
-        const bool on_hull = field_.value_m[static_cast<std::size_t>(bend)] <= ground_.offset_m;
-        (on_hull ? outer : inner).note(bend);
-    });
-    if (consider_listed(v, outer, way) || consider_listed(v, inner, way)) return;
-    const std::size_t hidden = std::min(kHiding, inner.entries().size());
-    for (const auto& [length_m, bend] : inner.entries().first(hidden)) {
-        consider_hiding(v, bend, way);
-    }
-}
-
-/// Tries the hull's planes that are nearer than the way is long and lie ahead of v, the nearest
-/// first.
-void PathSearch::consider_planes(std::uint32_t v, Way& way) {
-    thread_local std::vector<std::uint32_t> facets;  // one allocation a thread instead of a vertex
-    const double limit_m = way.value_m * (1.0 - kLeastGain);
-    planes_.facets_ahead(ground_.mesh.vertices[v], limit_m, ground_.normals[v],
-                         double{ground_.spread[v]} + BendPool::kSlack,
-                         kBesideFacet * ground_.diagonal_m, facets);
-    Shortlist list(*this, v, limit_m, kTries);
-    for (const std::uint32_t facet : facets) list.note(-1 - static_cast<std::int32_t>(facet));
-    consider_listed(v, list, way);
-}
-
-/// Searches a better way for each vertex on its own, then takes what was found.
-/// @return whether any vertex' way got shorter
-bool PathSearch::improve(
-    const std::vector<std::uint32_t>& vertices,
-    const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search) {
-    std::vector<Way> ways(vertices.size());
-    for_blocks(vertices.size(), kBlock, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            ways[i] = known(vertices[i]);
-            search(vertices[i], i, ways[i]);
-        }
-    });
-    bool shorter = false;
-    for (std::size_t i = 0; i < vertices.size(); ++i) shorter |= accept(vertices[i], ways[i]);
-    return shorter;
-}
-
-/// Shortens the ways of the bends that most ways use. @return whether any got shorter
-bool PathSearch::shorten_bends(bool with_lookouts) {
-    std::vector<std::uint32_t> bends = most_used_bends();
-    std::erase_if(bends, [&](std::uint32_t v) { return field_.flag[v] != ConcavityFlag::kPath; });
-    const BendPool all(ground_, planes_, field_, possible_bends());
-    const std::size_t stride = 1 + bends.size() / kBendLookouts;
-    const bool shorter = improve(bends, [&](std::uint32_t v, std::size_t place, Way& way) {
-        consider_planes(v, way);
-        consider_pool(v, all, kMostTries, way);
-        if (with_lookouts && place % stride == 0) look_around(v, place, kProbeDirections, way);
-    });
-    propagate();
-    return shorter;
-}
-
-/// Shortens every way that is not proven, by what the mesh neighbours' ways go through and by the
-/// most used bends; as many as the budgets allow, evenly spread, by all vertices and all planes.
-void PathSearch::shorten_all(const std::vector<std::uint32_t>& bent) {
-    const BendPool used(ground_, planes_, field_, most_used_bends());
-    const BendPool all(ground_, planes_, field_, possible_bends());
-    const std::size_t bend_stride = 1 + bent.size() * all.size() / kBendBudget;
-    const std::size_t plane_stride = 1 + bent.size() * planes_.size() / kPlaneBudget;
-    improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {
-        for (const std::uint32_t u : ground_.neighbours.of(v)) {
-            if (finished(u) && consider(v, field_.parent[u], way)) straighten(v, way);
-        }
-        if (place % plane_stride == 0) consider_planes(v, way);
-        consider_pool(v, place % bend_stride == 0 ? all : used, kTries, way);
-    });
-    propagate();
-}
-
-/// Step 4: the next bend may lie across the void, where no mesh edge leads. First the bends' own
-/// ways, which many share, then every vertex', then the bends' once more, as some lead over
-/// vertices whose ways have just become shorter.
-void PathSearch::shorten_across_the_void() {
-    const std::vector<std::uint32_t> bent = bent_vertices();
-    if (bent.empty()) return;
-    shorten_bends(true);
-    shorten_all(bent);
-    shorten_bends(false);
-}
-
 /// Step 5: bends slide along mesh edges.
 void PathSearch::slide_bends() {
     const std::vector<std::uint32_t> bent = bent_vertices();
     const BendSlider slider(ground_, planes_, bvh_, field_);
     std::vector<SlidWay> ways(bent.size());
-    for_blocks(bent.size(), kBlock, [&](std::size_t first, std::size_t last) {
+    for_blocks(bent.size(), kVerticesAtATime, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             ways[i] = slider.slide(bent[i]);
             SlidWay tilted = slider.tilt(bent[i]);

@@ -30,6 +30,9 @@ public:
     ConcavityField take();
 
 private:
+    static constexpr std::size_t kVerticesAtATime = 128;  ///< of one thread
+    static constexpr int kAllDirections = 32;             ///< of a look around
+
     struct QueueItem {
         double value_m;
         std::uint32_t vertex;
@@ -68,9 +71,9 @@ private:
     void consider_hiding(std::uint32_t v, std::int32_t bend, Way& way);
     void consider_planes(std::uint32_t v, Way& way);
     void consider_pool(std::uint32_t v, const BendPool& pool, std::size_t tries, Way& way);
-    bool shorten_bends(bool with_lookouts);
+    void shorten_bends(bool with_lookouts);
     void shorten_all(const std::vector<std::uint32_t>& bent);
-    bool improve(const std::vector<std::uint32_t>& vertices,
+    void improve(const std::vector<std::uint32_t>& vertices,
                  const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search);
 
     const PathGround& ground_;

@@ -15,7 +15,7 @@ constexpr int kHoldBacks = 2;          // halvings of how far the bends slide
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 constexpr double kSettled = 1e-5;        // [1] of the length that a round has to gain
 constexpr double kLeastSlide = 3e-4;     // [1] of the length that sliding may gain at most
-constexpr int kSettleRounds = 32;        // of bends in turn, until none moves
+constexpr int kSettleRounds = 32;        // of bends in turn
 constexpr double kLeastLean = 0.1;       // sine; a flatter floor does not block the perpendicular
 constexpr double kLeastSlope = 0.5;      // cosine of a tilted way to the plane it leaves by
 constexpr int kTiltRounds = 6;           // halvings of the tilt
@@ -339,7 +339,7 @@ SlidWay BendSlider::tilt(std::uint32_t vertex) const {
     const double lean = side.norm();  // sine of the wall's angle to the plane
     const double depth_m = below.offset_m - normal.dot(ground_.mesh.vertices[vertex]);
     const double most_m = field_.value_m[vertex] * (1.0 - kLeastTiltGain);
-    if (!(depth_m < most_m) || lean < kLeastLean) return way;
+    if (!(depth_m > ground_.offset_m && depth_m < most_m) || lean < kLeastLean) return way;
     side /= lean;
     const auto direction = [&](double tangent) {
         return Eigen::Vector3d((normal + tangent * side).normalized());
@@ -368,37 +368,6 @@ SlidWay BendSlider::tilt(std::uint32_t vertex) const {
     way.bends.push_back(
         {ground_.mesh.vertices[vertex] + length_m * out, start + std::max(0.0, tested_m) * out, 0});
     return way;
-}
-
-void take_slid(const SlidWay& way, std::uint32_t vertex, ConcavityField& field) {
-    const auto first = static_cast<std::int32_t>(field.value_m.size() + field.edge_bends.size());
-    for (std::size_t i = 0; i < way.bends.size(); ++i) {
-        field.edge_bends.push_back(way.bends[i]);
-        field.edge_bends.back().parent =
-            i + 1 == way.bends.size() ? way.parent : first + 1 + static_cast<std::int32_t>(i);
-    }
-    field.value_m[vertex] = way.value_m;
-    field.parent[vertex] = first;
-}
-
-double length_of_way(const ConcavityField& field, const PathGround& ground,
-                     const HullPlaneTree& planes, std::uint32_t vertex) {
-    const auto vertices = static_cast<std::int32_t>(field.value_m.size());
-    Eigen::Vector3d at = ground.mesh.vertices[vertex];
-    std::int32_t parent = field.parent[vertex];
-    double length_m = 0.0;
-    while (parent >= vertices) {
-        const EdgeBend& bend = field.edge_bends[static_cast<std::size_t>(parent - vertices)];
-        length_m += (bend.point - at).norm();
-        at = bend.point;
-        parent = bend.parent;
-    }
-    if (parent >= 0) {
-        return length_m + (ground.mesh.vertices[static_cast<std::size_t>(parent)] - at).norm() +
-               field.value_m[static_cast<std::size_t>(parent)];
-    }
-    const HullFacet& facet = planes.facet(static_cast<std::uint32_t>(-1 - parent));
-    return length_m + std::max(0.0, facet.offset_m - facet.normal.dot(at));
 }
 
 }  // namespace graspd::concavity_detail

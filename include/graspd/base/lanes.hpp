@@ -1,18 +1,15 @@
 #pragma once
 
 #include <bit>
+#include <cstdint>
 
 #include <Eigen/Core>
-
-#if defined(__SSE__)
-#include <xmmintrin.h>
-#endif
 
 namespace graspd {
 
 /// Bit k is set where lane k has no sign: where it is zero or more.
 inline unsigned lanes_not_negative(const Eigen::Array4f& lanes) {
-#if defined(__SSE__)
+#if defined(EIGEN_VECTORIZE_SSE)  // Eigen brings the intrinsics along
     return ~static_cast<unsigned>(_mm_movemask_ps(_mm_loadu_ps(lanes.data()))) & 0xfu;
 #else
     unsigned mask = 0;

@@ -41,9 +41,10 @@ enum class ConcavityFlag : std::uint8_t {
 /// "exact", "path", "enclosed", "unreferenced".
 const char* to_string(ConcavityFlag flag);
 
-/// A bend of a way out that lies within a mesh edge.
+/// A bend of a way out that lies within a mesh edge, or the place where a way that leaves the hull
+/// aslant meets its plane.
 struct EdgeBend {
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< [m] on the edge
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< [m] on the edge or the plane
     Eigen::Vector3d lifted = Eigen::Vector3d::Zero();  ///< [m] where rays pass, off the surface
     std::int32_t parent = 0;                           ///< what comes next, as a vertex's
 };
