@@ -26,8 +26,9 @@ Value* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, st
 
 class EmbreeTree final : public RayTree {
 public:
-    EmbreeTree(const TriangleMesh& mesh, RTCSceneFlags flags) : scene_(rtcNewScene(device())) {
-        const Owned<RTCGeometry> geometry(rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    EmbreeTree(const TriangleMesh& mesh, RTCDevice device, RTCSceneFlags flags)
+        : scene_(rtcNewScene(device)) {
+        const Owned<RTCGeometry> geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
         std::vector<Triangle> faces;
         faces.reserve(mesh.faces.size());
         for (const Triangle& face : mesh.faces) {
@@ -64,23 +65,32 @@ public:
     }
 
 private:
-    /// One for all trees, as Embree means it to be.
-    static RTCDevice device() {
-        static const Owned<RTCDevice> device(rtcNewDevice("threads=1"));
-        return device.get();
-    }
-
     Owned<RTCScene> scene_;
 };
+
+/// One for all trees, as Embree means it to be.
+RTCDevice widest_device() {
+    static const Owned<RTCDevice> device(rtcNewDevice("threads=1"));
+    return device.get();
+}
+
+RTCDevice sse42_device() {
+    static const Owned<RTCDevice> device(rtcNewDevice("threads=1,isa=sse4.2"));
+    return device.get();
+}
 
 }  // namespace
 
 RayTreePtr embree_fast_tree(const TriangleMesh& mesh) {
-    return std::make_unique<EmbreeTree>(mesh, RTC_SCENE_FLAG_NONE);
+    return std::make_unique<EmbreeTree>(mesh, widest_device(), RTC_SCENE_FLAG_NONE);
 }
 
 RayTreePtr embree_robust_tree(const TriangleMesh& mesh) {
-    return std::make_unique<EmbreeTree>(mesh, RTC_SCENE_FLAG_ROBUST);
+    return std::make_unique<EmbreeTree>(mesh, widest_device(), RTC_SCENE_FLAG_ROBUST);
+}
+
+RayTreePtr embree_sse42_tree(const TriangleMesh& mesh) {
+    return std::make_unique<EmbreeTree>(mesh, sse42_device(), RTC_SCENE_FLAG_ROBUST);
 }
 
 }  // namespace graspd::bench

@@ -29,8 +29,10 @@ RayTreePtr cgal_tree(const TriangleMesh& mesh);
 RayTreePtr fcl_capsule_tree(const TriangleMesh& mesh, double radius_m);
 RayTreePtr fcl_triangle_tree(const TriangleMesh& mesh);
 
-/// Embree 3 in single precision, as it comes and with its flag for watertight edges.
+/// Embree 3 in single precision: as it comes; with its flag for watertight edges; with that flag
+/// and no wider instructions than those that our tree is compiled for.
 RayTreePtr embree_fast_tree(const TriangleMesh& mesh);
 RayTreePtr embree_robust_tree(const TriangleMesh& mesh);
+RayTreePtr embree_sse42_tree(const TriangleMesh& mesh);
 
 }  // namespace graspd::bench

@@ -70,6 +70,7 @@ std::vector<TreeKind> tree_kinds() {
 #ifdef GRASPD_BENCH_EMBREE
         {"embree", [](const Scene& scene) { return bench::embree_fast_tree(scene.mesh); }},
         {"embree_robust", [](const Scene& scene) { return bench::embree_robust_tree(scene.mesh); }},
+        {"embree_sse42", [](const Scene& scene) { return bench::embree_sse42_tree(scene.mesh); }},
 #endif
     };
 }
