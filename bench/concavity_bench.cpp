@@ -1,12 +1,13 @@
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
 
+#include "bench_main.hpp"
 #include "bench_meshes.hpp"
 #include "graspd/concavity/shortest_path_concavity.hpp"
 #include "graspd/mesh/condition_mesh.hpp"
@@ -58,22 +59,13 @@ bool add(const std::string& name) {
 }  // namespace
 
 int main(int count, char** arguments) {
-    try {
-        benchmark::Initialize(&count, arguments);
-        bool all_there = true;
-        for (int i = 1; i < count; ++i) all_there = add(arguments[i]) && all_there;
-        if (!all_there) return 1;
+    return bench::run_benchmarks(count, arguments, add, [](bool any_named) {
+        if (any_named) return;
         for (const std::string size : {"/5000", "/16000", "/70000", "/300000"}) {
             for (const std::string shape :
                  {"cup", "channel", "tunnel_3d", "twisted vase", "torus"}) {
-                if (count == 1) add(shape + size);
+                add(shape + size);
             }
         }
-        benchmark::RunSpecifiedBenchmarks();
-        benchmark::Shutdown();
-        return 0;
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "%s\n", problem.what());
-        return 1;
-    }
+    });
 }

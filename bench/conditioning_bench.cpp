@@ -1,13 +1,13 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <string>
 #include <utility>
 
+#include "bench_main.hpp"
+#include "bench_meshes.hpp"
 #include "graspd/mesh/condition_mesh.hpp"
-#include "graspd/mesh/read_object.hpp"
 #include "support/shapes.hpp"
 
 // How long mesh conditioning takes, for clean and damaged shapes of 5k to 300k faces and for the
@@ -61,35 +61,18 @@ void add_shapes() {
     }
 }
 
-int add_file(const std::string& path) {
-    const auto file = read_object(path);
-    if (!file.ok()) {
-        std::fprintf(stderr, "%s\n", file.error().detail.c_str());
-        return 1;
+bool add_file(const std::string& path) {
+    auto mesh = bench::bench_mesh(path);
+    if (!mesh.ok()) {
+        std::fprintf(stderr, "%s\n", mesh.error().detail.c_str());
+        return false;
     }
-    const auto* mesh = std::get_if<TriangleMesh>(&file.value().object);
-    if (!mesh) {
-        std::fprintf(stderr, "%s has no faces\n", path.c_str());
-        return 1;
-    }
-    add(std::filesystem::path(path).filename().string(), *mesh);
-    return 0;
+    add(std::filesystem::path(path).filename().string(), std::move(mesh).value());
+    return true;
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-    try {
-        benchmark::Initialize(&count, arguments);
-        int failed = 0;
-        for (int i = 1; i < count; ++i) failed |= add_file(arguments[i]);
-        if (failed) return 1;
-        add_shapes();
-        benchmark::RunSpecifiedBenchmarks();
-        benchmark::Shutdown();
-        return 0;
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "%s\n", problem.what());
-        return 1;
-    }
+    return bench::run_benchmarks(count, arguments, add_file, [](bool) { add_shapes(); });
 }

@@ -1,7 +1,6 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -11,6 +10,7 @@
 
 #include <tbb/global_control.h>
 
+#include "bench_main.hpp"
 #include "bench_meshes.hpp"
 #include "graspd/base/space_curve.hpp"
 #include "graspd/concavity/shortest_path_concavity.hpp"
@@ -193,20 +193,9 @@ bool add(const std::string& name) {
 }  // namespace
 
 int main(int count, char** arguments) {
-    try {
-        const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-        benchmark::Initialize(&count, arguments);
-        bool all_there = true;
-        for (int i = 1; i < count; ++i) all_there = add(arguments[i]) && all_there;
-        if (!all_there) return 1;
-        for (const char* shape : {"cup/5000", "cup/70000"}) {
-            if (count == 1) add(shape);
-        }
-        benchmark::RunSpecifiedBenchmarks();
-        benchmark::Shutdown();
-        return 0;
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "%s\n", problem.what());
-        return 1;
-    }
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
+    return bench::run_benchmarks(count, arguments, add, [](bool any_named) {
+        if (any_named) return;
+        for (const char* shape : {"cup/5000", "cup/70000"}) add(shape);
+    });
 }

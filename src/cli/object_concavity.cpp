@@ -39,9 +39,7 @@ Result<StoredMesh> to_mesh(const ObjectFile& object, const TriangulateCloudConfi
 Result<ConcavityField> concavity_of(const TriangleMesh& mesh, const PlannerConfig& config) {
     const auto hull = outer_hull(mesh.vertices);
     if (!hull.ok()) return hull.error();
-    const double tolerance_m = mesh_diagonal_m(mesh) * config.shortest_path_concavity.start_offset /
-                               kOffsetOverRayTolerance;
-    const TriangleBvh bvh(mesh, tolerance_m);
+    const TriangleBvh bvh(mesh, ray_tolerance_m(mesh, config.shortest_path_concavity));
     return vertex_concavity(mesh, hull.value(), bvh, config.concavity());
 }
 
