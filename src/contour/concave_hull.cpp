@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <exception>
+#include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-#include <pcl/surface/concave_hull.h>
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <Eigen/Eigenvalues>
-#include <pcl/surface/impl/concave_hull.hpp>
 
 #include "graspd/base/plane_points.hpp"
 #include "graspd/base/settings.hpp"
@@ -20,11 +21,10 @@ namespace graspd {
 namespace {
 
 using Loop = std::vector<Eigen::Vector2d>;
-using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 // Nearer points say nothing new about an outline along which a disc of a spacing or more rolls.
 constexpr double kLeastGap_spacings = 0.25;
-// Thinner sets have no triangle whose circumscribed circle fits any alpha; qhull would complain.
+// Thinner sets have no triangle whose circumscribed circle fits any alpha.
 constexpr double kLeastThickness_spacings = 1e-3;
 constexpr double kAlphaGrowth = 1.15;
 constexpr int kMaxGrowths = 10;  // 4 times the configured alpha: no longer the shape asked for
@@ -67,55 +67,71 @@ double thickness_m(std::span<const Eigen::Vector2d> points) {
     return std::sqrt(least / static_cast<double>(points.size()));
 }
 
-/// PCL works in float: centred and in spacings, so that no digits are lost far from the origin.
-Cloud::Ptr in_spacings(std::span<const Eigen::Vector2d> points, double spacing_m) {
-    const Eigen::Vector2d mean = mean_of(points);
-    auto cloud = pcl::make_shared<Cloud>();
-    cloud->reserve(points.size());
-    for (const Eigen::Vector2d& point : points) {
-        const Eigen::Vector2f scaled = ((point - mean) / spacing_m).cast<float>();
-        cloud->push_back(pcl::PointXYZ(scaled.x(), scaled.y(), 0.0F));
+/// Delaunay triangulation of points, each triangle with its circumscribed circle.
+class Triangulation {
+public:
+    /// @param points  [m], no two alike; centred before CGAL's constructions, so that no digits are
+    ///                lost far from the origin
+    explicit Triangulation(std::span<const Eigen::Vector2d> points) {
+        const Eigen::Vector2d mean = mean_of(points);
+        std::vector<std::pair<Kernel::Point_2, std::size_t>> numbered;
+        numbered.reserve(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            numbered.emplace_back(
+                Kernel::Point_2(points[i].x() - mean.x(), points[i].y() - mean.y()), i);
+        }
+        mesh_.insert(numbered.begin(), numbered.end());
+        for (const auto& face : mesh_.finite_face_handles()) {
+            face->info() = std::sqrt(CGAL::squared_radius(
+                face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point()));
+        }
     }
-    return cloud;
-}
 
-/// What PCL's walk along the alpha shape's edges brought home.
-struct Walk {
-    std::vector<Loop> loops;  ///< the input's own points
-    bool is_whole = true;     ///< every vertex is in a loop, and no loop closes by a false edge
+    /// For each point on the border of the triangles whose circles fit `alpha_m` the next one, with
+    /// the shape on the left. None where a point has two: the shape is pinched there.
+    std::optional<std::map<std::size_t, std::size_t>> border(double alpha_m) const {
+        std::map<std::size_t, std::size_t> next;
+        for (const auto& face : mesh_.finite_face_handles()) {
+            if (!fits(face, alpha_m)) continue;
+            for (int i = 0; i < 3; ++i) {
+                if (fits(face->neighbor(i), alpha_m)) continue;
+                const std::size_t from = face->vertex(Mesh::ccw(i))->info();
+                if (!next.emplace(from, face->vertex(Mesh::cw(i))->info()).second) {
+                    return std::nullopt;
+                }
+            }
+        }
+        return next;
+    }
+
+private:
+    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+    using Vertices = CGAL::Triangulation_vertex_base_with_info_2<std::size_t, Kernel>;
+    using Faces = CGAL::Triangulation_face_base_with_info_2<double, Kernel>;
+    using Mesh =
+        CGAL::Delaunay_triangulation_2<Kernel,
+                                       CGAL::Triangulation_data_structure_2<Vertices, Faces>>;
+
+    bool fits(const Mesh::Face_handle& face, double alpha_m) const {
+        return !mesh_.is_infinite(face) && face->info() <= alpha_m;
+    }
+    Mesh mesh_;
 };
 
-Walk walk_outline(const Cloud::Ptr& cloud, std::span<const Eigen::Vector2d> points,
-                  double alpha_spacings, double spacing_m) {
-    pcl::ConcaveHull<pcl::PointXYZ> hull;
-    hull.setInputCloud(cloud);
-    hull.setDimension(2);
-    hull.setAlpha(alpha_spacings);
-    hull.setKeepInformation(true);
-    Cloud vertices;
-    std::vector<pcl::Vertices> polygons;
-    hull.reconstruct(vertices, polygons);
-    pcl::PointIndices source;
-    hull.getHullPointIndices(source);
-
-    Walk walk;
-    std::size_t walked = 0;
-    // An edge of the shape is a chord of a circle that fits alpha.
-    const double longest_edge_m = 2.0 * alpha_spacings * spacing_m * (1.0 + 1e-4);
-    for (const pcl::Vertices& polygon : polygons) {
-        Loop loop;
-        for (const auto vertex : polygon.vertices) {
-            loop.push_back(points[static_cast<std::size_t>(source.indices[vertex])]);
+/// The loops of a border, each from its point of lowest index.
+std::vector<Loop> loops_of(std::map<std::size_t, std::size_t> next,
+                           std::span<const Eigen::Vector2d> points) {
+    std::vector<Loop> loops;
+    while (!next.empty()) {
+        Loop& loop = loops.emplace_back();
+        for (auto at = next.begin(); at != next.end();) {
+            const std::size_t to = at->second;
+            loop.push_back(points[at->first]);
+            next.erase(at);
+            at = next.find(to);
         }
-        walked += loop.size();
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const double edge_m = (loop[(i + 1) % loop.size()] - loop[i]).norm();
-            walk.is_whole = walk.is_whole && edge_m <= longest_edge_m;
-        }
-        walk.loops.push_back(std::move(loop));
     }
-    walk.is_whole = walk.is_whole && walked == vertices.size();
-    return walk;
+    return loops;
 }
 
 double signed_area_m2(const Loop& loop) {
@@ -167,21 +183,16 @@ Result<ConcaveHull> concave_hull(std::span<const Eigen::Vector2d> points, double
     if (thickness_m(kept) < kLeastThickness_spacings * spacing_m) {
         return degenerate("all " + std::to_string(kept.size()) + " points lie on one line");
     }
-    try {
-        const Cloud::Ptr cloud = in_spacings(kept, spacing_m);
-        double alpha_spacings = config.alpha_spacings;
-        for (int growth = 0; growth <= kMaxGrowths; ++growth, alpha_spacings *= kAlphaGrowth) {
-            Walk walk = walk_outline(cloud, kept, alpha_spacings, spacing_m);
-            if (!walk.is_whole) continue;
-            if (!walk.loops.empty()) return normalise(std::move(walk.loops));
-            std::ostringstream text;
-            text << "no triangle of the " << kept.size()
-                 << " points fits alpha = " << alpha_spacings * spacing_m << " m";
-            return degenerate(text.str());
-        }
-    } catch (const std::exception& error) {
-        return PlanError{PlanErrorCode::kInternal,
-                         std::string("concave_hull: PCL failed: ") + error.what()};
+    const Triangulation triangles(kept);
+    double alpha_spacings = config.alpha_spacings;
+    for (int growth = 0; growth <= kMaxGrowths; ++growth, alpha_spacings *= kAlphaGrowth) {
+        const auto border = triangles.border(alpha_spacings * spacing_m);
+        if (!border) continue;
+        if (!border->empty()) return normalise(loops_of(*border, kept));
+        std::ostringstream text;
+        text << "no triangle of the " << kept.size()
+             << " points fits alpha = " << alpha_spacings * spacing_m << " m";
+        return degenerate(text.str());
     }
     std::ostringstream text;
     text << "the outline stays pinched up to " << std::pow(kAlphaGrowth, kMaxGrowths)

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "disjoint_sets.hpp"
+#include "graspd/base/disjoint_sets.hpp"
 #include "graspd/base/geometry.hpp"
 #include "mesh_edges.hpp"
 #include "orient_faces.hpp"

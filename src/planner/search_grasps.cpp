@@ -5,11 +5,114 @@
 #include "boundary_axes.hpp"
 #include "find_concavities.hpp"
 #include "find_poses.hpp"
+#include "graspd/base/parallel.hpp"
 #include "opposite_axes.hpp"
 #include "order_axes.hpp"
 
 namespace graspd::planner_detail {
 namespace {
+
+constexpr std::size_t kBatch = 8;  // axes that are tried side by side
+
+/// What one axis gave.
+struct Attempt {
+    std::vector<GradedGrasp> grasps;
+    Rejections rejections;
+    StageLog log;
+    std::uint32_t poses = 0;  ///< that were checked in full
+};
+
+/// Evaluates the poses of one axis.
+Attempt try_axis(const ClosingAxis& axis, const Judgement& judgement) {
+    constexpr const char* kPoses = "planner/find_poses";
+    Attempt attempt;
+    const auto poses =
+        attempt.log.run(kPoses, 1, [&] { return find_poses(axis, judgement, attempt.rejections); });
+    attempt.log.out(kPoses, poses.size());
+    attempt.poses = static_cast<std::uint32_t>(poses.size());
+    for (const ApproachPose& pose : poses) {
+        auto grasp = evaluate_pose(axis, pose, judgement, attempt.rejections, attempt.log);
+        if (grasp) attempt.grasps.push_back(std::move(*grasp));
+    }
+    return attempt;
+}
+
+/// One round: tries axes in their order, a batch at a time, until enough of them gave a grasp.
+///
+/// Which axes a batch holds, and what of its attempts counts, does not depend on threads: an
+/// attempt beyond what the round needs is thrown away.
+class Round {
+public:
+    Round(const Judgement& judgement, std::vector<ClosingAxis> ordered)
+        : judgement_(judgement),
+          pending_(std::move(ordered)),
+          poses_left_(judgement.config.search.poses_per_round) {}
+
+    bool done() const { return pending_.empty(); }
+    void try_batch(StageLog& log);
+
+    std::vector<GradedGrasp> grasps_;
+    Rejections rejections_;
+
+private:
+    bool is_full() const {
+        return held_.size() >= judgement_.config.search.axes_per_round || poses_left_ == 0;
+    }
+    bool like_any(const ClosingAxis& axis, const std::vector<ClosingAxis>& others) const {
+        return std::ranges::any_of(
+            others, [&](const ClosingAxis& other) { return similar(axis, other, judgement_); });
+    }
+    std::vector<ClosingAxis> next_batch();
+    void accept(const ClosingAxis& axis, Attempt attempt, StageLog& log);
+
+    const Judgement& judgement_;
+    std::vector<ClosingAxis> pending_;
+    std::vector<ClosingAxis> held_;  ///< axes on which a grasp was found
+    std::uint32_t poses_left_;
+};
+
+/// The next axes that are neither like one that holds nor like each other; what is like another
+/// of the batch waits for the next one.
+std::vector<ClosingAxis> Round::next_batch() {
+    std::vector<ClosingAxis> batch, rest;
+    for (const ClosingAxis& axis : pending_) {
+        if (batch.size() < kBatch && like_any(axis, held_)) {
+            rejections_.add("axis_similar");
+        } else if (batch.size() < kBatch && !like_any(axis, batch)) {
+            batch.push_back(axis);
+        } else {
+            rest.push_back(axis);
+        }
+    }
+    pending_ = std::move(rest);
+    return batch;
+}
+
+void Round::accept(const ClosingAxis& axis, Attempt attempt, StageLog& log) {
+    if (is_full()) {
+        rejections_.add("axis_surplus");
+        return;
+    }
+    log.merge(attempt.log);
+    poses_left_ -= std::min(poses_left_, attempt.poses);
+    rejections_.merge(attempt.rejections);
+    if (!attempt.grasps.empty()) held_.push_back(axis);
+    std::ranges::move(attempt.grasps, std::back_inserter(grasps_));
+}
+
+void Round::try_batch(StageLog& log) {
+    const std::vector<ClosingAxis> batch = next_batch();
+    std::vector<Attempt> attempts(batch.size());
+    for_blocks(batch.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) attempts[i] = try_axis(batch[i], judgement_);
+    });
+    for (std::size_t i = 0; i < batch.size(); ++i) accept(batch[i], std::move(attempts[i]), log);
+    if (!is_full()) return;
+    for (const ClosingAxis& axis : pending_) {
+        rejections_.add(like_any(axis, held_) ? "axis_similar" : "axis_surplus");
+    }
+    pending_.clear();
+}
 
 /// Runs rounds into one result and drops the one that is interrupted.
 class Rounds {
@@ -29,8 +132,6 @@ public:
     SearchResult take() { return std::move(result_); }
 
 private:
-    bool try_axis(const ClosingAxis& axis, std::uint32_t& poses_left, SearchResult& round);
-
     const Judgement& judgement_;
     const StopQuery& stop_requested_;
     StageLog& log_;
@@ -39,42 +140,35 @@ private:
 
 void Rounds::run(std::vector<ClosingAxis> axes) {
     constexpr const char* kOrder = "planner/order_axes";
-    SearchResult round;
+    Rejections unfit;
     const std::size_t found = axes.size();
-    const auto ordered = log_.run(
-        kOrder, found, [&] { return order_axes(std::move(axes), judgement_, round.rejections); });
+    auto ordered =
+        log_.run(kOrder, found, [&] { return order_axes(std::move(axes), judgement_, unfit); });
     log_.out(kOrder, ordered.size());
-    std::vector<ClosingAxis> held;  // axes on which a grasp was found
-    std::uint32_t poses_left = judgement_.config.search.poses_per_round;
-    for (const ClosingAxis& axis : ordered) {
+    Round round(judgement_, std::move(ordered));
+    while (!round.done()) {
         if (stopped()) return;
-        const bool known = std::ranges::any_of(
-            held, [&](const ClosingAxis& other) { return similar(axis, other, judgement_); });
-        const bool enough = held.size() >= judgement_.config.search.axes_per_round;
-        if (known || enough || poses_left == 0) {
-            round.rejections.add(known ? "axis_similar" : "axis_surplus");
-            continue;
-        }
-        if (try_axis(axis, poses_left, round)) held.push_back(axis);
+        round.try_batch(log_);
     }
-    std::ranges::move(round.grasps, std::back_inserter(result_.grasps));
-    result_.rejections.merge(round.rejections);
+    std::ranges::move(round.grasps_, std::back_inserter(result_.grasps));
+    result_.rejections.merge(unfit);
+    result_.rejections.merge(round.rejections_);
 }
 
-/// Evaluates the poses of one axis. @return whether it gave a grasp
-bool Rounds::try_axis(const ClosingAxis& axis, std::uint32_t& poses_left, SearchResult& round) {
-    constexpr const char* kPoses = "planner/find_poses";
-    const auto poses =
-        log_.run(kPoses, 1, [&] { return find_poses(axis, judgement_, round.rejections); });
-    log_.out(kPoses, poses.size());
-    const std::size_t before = round.grasps.size();
-    for (const ApproachPose& pose : poses) {
-        if (auto grasp = evaluate_pose(axis, pose, judgement_, round.rejections, log_)) {
-            round.grasps.push_back(std::move(*grasp));
+/// The paper's candidates of all concavities, each concavity on a thread of its own.
+std::vector<std::vector<ClosingAxis>> axes_of(const std::vector<Concavity>& concavities,
+                                              const SurfaceSamples& surface,
+                                              const Judgement& judgement, StageLog& log) {
+    std::vector<std::vector<ClosingAxis>> axes(concavities.size());
+    std::vector<StageLog> logs(concavities.size());
+    for_blocks(concavities.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            axes[i] = boundary_axes(concavities[i], static_cast<std::int32_t>(i), surface,
+                                    judgement.object, judgement.gripper, judgement.config, logs[i]);
         }
-    }
-    poses_left -= std::min(poses_left, static_cast<std::uint32_t>(poses.size()));
-    return round.grasps.size() > before;
+    });
+    for (const StageLog& part : logs) log.merge(part);
+    return axes;
 }
 
 }  // namespace
@@ -95,10 +189,10 @@ Result<SearchResult> search_grasps(const Judgement& judgement, const StopQuery& 
     if (!concavities) return concavities.error();
 
     Rounds rounds(judgement, stop_requested, log);
-    if (rounds.wanted(kBoundary)) {
-        for (std::size_t i = 0; i < concavities.value().size() && !rounds.stopped(); ++i) {
-            rounds.run(boundary_axes(concavities.value()[i], static_cast<std::int32_t>(i),
-                                     surface.value(), object, gripper, config, log));
+    if (rounds.wanted(kBoundary) && !rounds.stopped()) {
+        for (auto& axes : axes_of(concavities.value(), surface.value(), judgement, log)) {
+            if (rounds.stopped()) break;
+            rounds.run(std::move(axes));
         }
     }
     if ((rounds.wanted(kWall) || rounds.wanted(kWholeObject)) && !rounds.stopped()) {

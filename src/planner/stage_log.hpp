@@ -29,10 +29,21 @@ public:
     /// Adds to a stage's count of outputs.
     void out(const char* name, std::uint64_t count) { entry(name).out += count; }
 
+    /// Adds another log's figures: of work that ran beside other work, so that the milliseconds are
+    /// those of all threads together.
+    void merge(const StageLog& other) {
+        for (const StageReport& stage : other.stages_) {
+            StageReport& mine = entry(stage.name);
+            mine.ms += stage.ms;
+            mine.in += stage.in;
+            mine.out += stage.out;
+        }
+    }
+
     std::vector<StageReport> take() { return std::move(stages_); }
 
 private:
-    StageReport& entry(const char* name) {
+    StageReport& entry(const std::string& name) {
         const auto found = std::ranges::find(stages_, name, &StageReport::name);
         if (found != stages_.end()) return *found;
         stages_.push_back({name, 0.0, 0, 0});

@@ -2,27 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-#include <pcl/search/kdtree.h>
-#include <pcl/segmentation/extract_clusters.h>
-
+#include "graspd/base/disjoint_sets.hpp"
 #include "graspd/base/plane_points.hpp"
+#include "graspd/base/point_grid.hpp"
 #include "graspd/base/settings.hpp"
 
 namespace graspd {
 namespace {
 
-using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 using Indices = std::vector<std::uint32_t>;
 
-// Grid neighbours lie at whole multiples of the spacing: distances that equal a limit up to PCL's
-// floats are within it, whichever way they are rounded.
+// Grid neighbours lie at whole multiples of the spacing: distances that equal a limit up to
+// rounding are within it.
 constexpr double kTie = 1.0 + 1e-5;
 
 PlanError invalid(const std::string& detail) {
@@ -52,58 +47,45 @@ std::optional<PlanError> check_input(std::span<const SurfaceSample> samples,
     return check_indices(samples, "areas.enlarged", areas.enlarged);
 }
 
-/// The samples' points relative to `center`, since PCL keeps them in float.
-Cloud::Ptr make_cloud(std::span<const SurfaceSample> samples, const Indices& indices,
-                      const Eigen::Vector3d& center) {
-    auto cloud = pcl::make_shared<Cloud>();
-    cloud->reserve(indices.size());
-    for (const std::uint32_t i : indices) {
-        const Eigen::Vector3f p = (samples[i].point - center).cast<float>();
-        cloud->emplace_back(p.x(), p.y(), p.z());
+std::vector<Eigen::Vector3d> points_of(std::span<const SurfaceSample> samples,
+                                       const Indices& indices) {
+    std::vector<Eigen::Vector3d> points;
+    points.reserve(indices.size());
+    for (const std::uint32_t i : indices) points.push_back(samples[i].point);
+    return points;
+}
+
+/// Clusters of samples that a chain of steps of at most `tolerance_m` connects, as rising indices.
+std::vector<Indices> euclidean_clusters(std::span<const SurfaceSample> samples,
+                                        const Indices& indices, double tolerance_m) {
+    const auto points = points_of(samples, indices);
+    const PointGrid grid(points, tolerance_m);
+    DisjointSets sets(points.size());
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        grid.each_within(points[i], tolerance_m, [&](std::uint32_t other) {
+            if (other < i) sets.unite(i, other);
+            return true;
+        });
     }
-    return cloud;
-}
-
-Eigen::AlignedBox3d bounds_of(std::span<const SurfaceSample> samples, const Indices& indices) {
-    Eigen::AlignedBox3d box;
-    for (const std::uint32_t i : indices) box.extend(samples[i].point);
-    return box;
-}
-
-/// Indices into `salient` of each cluster; their order is PCL's.
-std::vector<pcl::PointIndices> euclidean_clusters(const Cloud::Ptr& cloud, double tolerance_m,
-                                                  std::uint32_t min_samples) {
-    auto tree = pcl::make_shared<pcl::search::KdTree<pcl::PointXYZ>>();
-    pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
-    extraction.setClusterTolerance(tolerance_m * kTie);
-    extraction.setMinClusterSize(static_cast<pcl::uindex_t>(min_samples));
-    extraction.setMaxClusterSize(std::numeric_limits<pcl::index_t>::max());
-    extraction.setSearchMethod(tree);
-    extraction.setInputCloud(cloud);
-    std::vector<pcl::PointIndices> clusters;
-    extraction.extract(clusters);
+    std::map<std::uint32_t, Indices> by_first;
+    for (std::uint32_t i = 0; i < points.size(); ++i) by_first[sets.find(i)].push_back(indices[i]);
+    std::vector<Indices> clusters;
+    for (auto& [first, cluster] : by_first) {
+        std::ranges::sort(cluster);
+        clusters.push_back(std::move(cluster));
+    }
     return clusters;
 }
 
 /// The samples among `enlarged` within `reach_m` of a salient one, and every salient one.
 Indices surroundings(std::span<const SurfaceSample> samples, const Indices& salient,
-                     const Indices& enlarged, double reach_m) {
-    Eigen::AlignedBox3d box = bounds_of(samples, salient);
-    const Eigen::Vector3d center = box.center();
-    pcl::search::KdTree<pcl::PointXYZ> tree;
-    tree.setInputCloud(make_cloud(samples, salient, center));
-    const Eigen::Vector3d pad = Eigen::Vector3d::Constant(reach_m * kTie);
-    box = Eigen::AlignedBox3d(box.min() - pad, box.max() + pad);
-
+                     const Indices& enlarged, double spacing_m, double reach_m) {
+    const PointGrid grid(points_of(samples, salient), std::max(reach_m, spacing_m));
     Indices around;
-    pcl::Indices nearest(1);
-    std::vector<float> squared(1);
     for (const std::uint32_t i : enlarged) {
-        if (!box.contains(samples[i].point)) continue;
-        const Eigen::Vector3f p = (samples[i].point - center).cast<float>();
-        if (tree.nearestKSearch({p.x(), p.y(), p.z()}, 1, nearest, squared) != 1) continue;
-        const Eigen::Vector3d& to = samples[salient[nearest.front()]].point;
-        if ((samples[i].point - to).norm() <= reach_m * kTie) around.push_back(i);
+        const bool far =
+            grid.each_within(samples[i].point, reach_m, [](std::uint32_t) { return false; });
+        if (!far) around.push_back(i);
     }
     Indices all;
     std::ranges::set_union(salient, around, std::back_inserter(all));
@@ -119,26 +101,23 @@ bool comes_before(const Concavity& a, const Concavity& b) {
 std::vector<Concavity> find_concavities(std::span<const SurfaceSample> samples,
                                         const ConcaveAreas& areas, double spacing_m,
                                         const ClusterConcavitiesConfig& config) {
-    const auto cloud =
-        make_cloud(samples, areas.salient, bounds_of(samples, areas.salient).center());
     std::vector<Concavity> concavities;
-    for (const pcl::PointIndices& cluster :
-         euclidean_clusters(cloud, config.tolerance_spacings * spacing_m, config.min_samples)) {
+    for (Indices& cluster :
+         euclidean_clusters(samples, areas.salient, config.tolerance_spacings * spacing_m * kTie)) {
+        if (cluster.size() < config.min_samples) continue;
         Concavity& concavity = concavities.emplace_back();
-        for (const auto k : cluster.indices) {
-            const std::uint32_t i = areas.salient[k];
-            concavity.salient.push_back(i);
+        concavity.salient = std::move(cluster);
+        for (const std::uint32_t i : concavity.salient) {
             concavity.depth_m = std::max(concavity.depth_m, samples[i].concavity_m);
         }
-        std::ranges::sort(concavity.salient);
     }
     std::ranges::sort(concavities, comes_before);
     if (concavities.size() > config.max_concavities) concavities.resize(config.max_concavities);
     Indices enlarged = areas.enlarged;
     std::ranges::sort(enlarged);
     for (Concavity& concavity : concavities) {
-        concavity.enlarged = surroundings(samples, concavity.salient, enlarged,
-                                          config.enlargement_spacings * spacing_m);
+        concavity.enlarged = surroundings(samples, concavity.salient, enlarged, spacing_m,
+                                          config.enlargement_spacings * spacing_m * kTie);
     }
     return concavities;
 }
@@ -150,12 +129,7 @@ Result<std::vector<Concavity>> cluster_concavities(std::span<const SurfaceSample
                                                    const ClusterConcavitiesConfig& config) {
     if (auto bad = check_input(samples, areas, spacing_m, config)) return *bad;
     if (areas.salient.empty()) return std::vector<Concavity>{};
-    try {
-        return find_concavities(samples, areas, spacing_m, config);
-    } catch (const std::exception& exception) {
-        return PlanError{PlanErrorCode::kInternal,
-                         std::string("cluster_concavities: PCL: ") + exception.what()};
-    }
+    return find_concavities(samples, areas, spacing_m, config);
 }
 
 }  // namespace graspd

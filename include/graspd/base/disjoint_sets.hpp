@@ -1,11 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <vector>
 
-namespace graspd::mesh_detail {
+namespace graspd {
 
 /// Sets that can be united (union-find). A set is named by its lowest member, so that the name does
 /// not depend on the order of the unions.
@@ -31,4 +32,4 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace graspd::mesh_detail
+}  // namespace graspd

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+namespace graspd {
+
+/// Points in cubic cells, for questions of the form "who is within a cell's length of here".
+/// Immutable after construction, so safe to query from any thread.
+class PointGrid {
+public:
+    /// @param points  [m] finite; copied
+    /// @param cell_m  [m] > 0; not below the largest distance that will be asked for, and at least
+    /// a
+    ///                millionth of the points' extent
+    /// Cost O(N log N).
+    PointGrid(std::span<const Eigen::Vector3d> points, double cell_m);
+
+    /// Calls visit(i) for every point i within `distance_m` <= cell_m of a place, until it returns
+    /// false. @return whether no visit returned false
+    template <class Visit>
+    bool each_within(const Eigen::Vector3d& place, double distance_m, Visit&& visit) const {
+        const double squared = distance_m * distance_m;
+        const Cell center = cell_of(place);
+        for (std::int64_t x = center.x - 1; x <= center.x + 1; ++x) {
+            for (std::int64_t y = center.y - 1; y <= center.y + 1; ++y) {
+                const auto [first, last] = row({x, y, center.z - 1}, {x, y, center.z + 1});
+                for (std::size_t at = first; at < last; ++at) {
+                    if ((points_[at] - place).squaredNorm() > squared) continue;
+                    if (!visit(number_[at])) return false;
+                }
+            }
+        }
+        return true;
+    }
+
+private:
+    struct Cell {
+        std::int64_t x = 0, y = 0, z = 0;
+    };
+    Cell cell_of(const Eigen::Vector3d& place) const;
+    /// One number a cell; cells that follow each other along z have numbers that do.
+    static std::uint64_t key(const Cell& cell);
+    /// Places of the points whose cells lie between two of one row.
+    std::pair<std::size_t, std::size_t> row(const Cell& from, const Cell& to) const;
+
+    double cell_m_ = 1.0;
+    Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+    std::vector<std::uint64_t> keys_;      ///< rising
+    std::vector<Eigen::Vector3d> points_;  ///< [m] in the order of the keys
+    std::vector<std::uint32_t> number_;    ///< of the point at a place
+};
+
+}  // namespace graspd
