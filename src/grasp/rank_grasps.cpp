@@ -31,15 +31,16 @@ std::optional<PlanError> check(std::span<const RankedEntry> entries, std::uint32
     return std::nullopt;
 }
 
-/// The first max_grasps of an order, but with the best of every concavity among them.
+/// The first max_grasps of an order, but with the likely best of every concavity among them.
 std::vector<std::size_t> cut(const std::vector<std::size_t>& order,
-                             std::span<const RankedEntry> entries, std::size_t max_grasps) {
+                             std::span<const RankedEntry> entries, std::size_t max_grasps,
+                             double likely_score) {
     if (order.size() <= max_grasps) return order;
     std::vector<std::size_t> kept;
     std::set<std::int32_t> seen;
     for (const std::size_t i : order) {  // the best of each concavity
         if (kept.size() == max_grasps) break;
-        if (entries[i].concavity < 0) continue;
+        if (entries[i].concavity < 0 || entries[i].score < likely_score) continue;
         if (seen.insert(entries[i].concavity).second) kept.push_back(i);
     }
     for (const std::size_t i : order) {  // then simply the best
@@ -82,7 +83,7 @@ Result<Ranking> rank_grasps(std::span<const RankedEntry> entries, std::uint32_t 
             distinct.push_back(i);
         }
     }
-    ranking.order = cut(distinct, entries, max_grasps);
+    ranking.order = cut(distinct, entries, max_grasps, config.likely_score);
     ranking.surplus = distinct.size() - ranking.order.size();
     return ranking;
 }

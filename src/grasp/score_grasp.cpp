@@ -9,15 +9,18 @@ namespace graspd {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
-constexpr double kGreatestTorqueRatio = 4.0;  // beyond it a grasp is no worse for being worse
+// Beyond these a grasp is no better for being better and no worse for being worse.
+constexpr double kLeastRatio = 0.05, kGreatestRatio = 20.0;
+
+/// How many times over a load is carried, as a logarithm.
+double reserve(double load_ratio) {
+    return -std::log(std::clamp(load_ratio, kLeastRatio, kGreatestRatio));
+}
 
 }  // namespace
 
 GraspScore score_grasp(const GraspEvidence& e, const ScoreGraspConfig& config) {
     const double friction_left = std::clamp(1.0 - e.min_friction / e.friction, 0.0, 1.0);
-    const double weight_torque = e.mass_kg * kGravity_m_s2 * e.lever_m;
-    const double friction_torque = 2.0 * e.friction * e.grip_force_N * e.contact_radius_m;
-    const double torque_ratio = std::min(weight_torque / friction_torque, kGreatestTorqueRatio);
     const double room = std::clamp(e.clearance_m / config.clearance_scale_m, 0.0, 1.0);
 
     GraspScore result;
@@ -25,7 +28,8 @@ GraspScore score_grasp(const GraspEvidence& e, const ScoreGraspConfig& config) {
         {"bias", config.bias},
         {"friction", config.friction_weight * (2.0 * friction_left - 1.0)},
         {"balance", -config.balance_weight * e.beta_rad / (0.25 * std::numbers::pi)},
-        {"lever", -config.lever_weight * torque_ratio},
+        {"weight", config.weight_weight * reserve(e.loads.slip)},
+        {"torque", config.torque_weight * reserve(std::hypot(e.loads.torsion, e.loads.tilt))},
         {"contact", config.contact_weight * (2.0 * std::min(e.contact_share, 1.0) - 1.0)},
         {"clearance", config.clearance_weight * room},
     };

@@ -24,6 +24,7 @@ public:
     bool close();
     bool move();
     bool balance();
+    bool press();
     void grade();
 
     GradedGrasp grasp_;
@@ -132,15 +133,35 @@ bool Examination::balance() {
     return false;
 }
 
-void Examination::grade() {
+/// Presses the fingers' whole faces on the object and compares the load with what they carry.
+bool Examination::press() {
+    const Gripper& gripper = judgement_.gripper;
+    const FingerFace face{0.5 * gripper.finger_width_m,
+                          gripper.tip_offset_m - gripper.finger_length_m, gripper.tip_offset_m,
+                          0.5 * grasp_.open_width_m};
+    constexpr const char* kPatch = "grasp/contact_patch";
+    const auto patches = log_.run(kPatch, 1, [&] {
+        return contact_patches(*judgement_.object.tree_P, grasp_.X_PG, face,
+                               judgement_.config.contact_patch);
+    });
+    if (!patches) return reject("no_contact");
+    log_.out(kPatch, 1);
     GraspEvidence& evidence = grasp_.evidence;
-    const Eigen::Vector3d arm = judgement_.center_of_mass_P - grasp_.X_PG.translation();
-    evidence.lever_m = arm.cross(grasp_.X_PG.linear().col(0)).norm();
-    evidence.mass_kg = judgement_.mass_kg;
-    evidence.grip_force_N = judgement_.request.options.grip_force_N;
-    evidence.contact_share = std::min(cloud_.left.share, cloud_.right.share);
-    evidence.contact_radius_m = 0.5 * judgement_.gripper.finger_width_m;
-    grasp_.score = score_grasp(evidence, judgement_.config.score_grasp);
+    const Eigen::Isometry3d X_GP = grasp_.X_PG.inverse();
+    const HeldLoad load{X_GP * judgement_.center_of_mass_P,
+                        X_GP.linear() * judgement_.down_P,
+                        judgement_.mass_kg,
+                        judgement_.request.options.grip_force_N,
+                        evidence.friction,
+                        evidence.min_friction};
+    evidence.mass_kg = load.mass_kg;
+    evidence.loads = load_ratios(patches.value(), load, judgement_.config.load_ratios);
+    evidence.contact_share = std::min(patches.value().left.share, patches.value().right.share);
+    return true;
+}
+
+void Examination::grade() {
+    grasp_.score = score_grasp(grasp_.evidence, judgement_.config.score_grasp);
     const PadTouch* touches[] = {&cloud_.left, &cloud_.right};
     for (std::size_t i = 0; i < 2; ++i) {
         grasp_.contacts_P[i] = {grasp_.X_PG * touches[i]->point_G,
@@ -155,7 +176,9 @@ std::optional<GradedGrasp> evaluate_pose(const ClosingAxis& axis, const Approach
                                          StageLog& log) {
     Examination pose(axis, judgement, rejections, log);
     pose.grasp_.X_PG = local_frame(axis, approach);
-    if (!pose.reach() || !pose.close() || !pose.balance() || !pose.move()) return std::nullopt;
+    if (!pose.reach() || !pose.close() || !pose.balance() || !pose.move() || !pose.press()) {
+        return std::nullopt;
+    }
     pose.grade();
     return pose.grasp_;
 }

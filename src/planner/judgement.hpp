@@ -16,6 +16,7 @@ struct Judgement {
     Eigen::Isometry3d X_FP = Eigen::Isometry3d::Identity();
     Eigen::Vector3d center_of_mass_P = Eigen::Vector3d::Zero();  ///< [m]
     double mass_kg = 0.1;
+    Eigen::Vector3d down_P = -Eigen::Vector3d::UnitZ();  ///< unit, of gravity
 };
 
 }  // namespace graspd::planner_detail

@@ -40,6 +40,14 @@ std::optional<Touch> widest_touch(const PreparedObject& object, const Eigen::Vec
     return std::nullopt;
 }
 
+/// Arm of the torque about a closing line: the mean of gravity's, which is none where the centre of
+/// mass hangs straight below or stands above the line, and shaking's, which has any direction.
+double lever_m(const Judgement& judgement, const Eigen::Vector3d& place,
+               const Eigen::Vector3d& closing) {
+    const Eigen::Vector3d arm = judgement.center_of_mass_P - place;
+    return 0.5 * (std::abs(arm.cross(judgement.down_P).dot(closing)) + arm.cross(closing).norm());
+}
+
 /// Closes along the axis's line alone. @return the typed reason when it is no grasp
 const char* probe(ProbedAxis& probed, const Judgement& judgement) {
     ClosingAxis& axis = probed.axis;
@@ -59,8 +67,8 @@ const char* probe(ProbedAxis& probed, const Judgement& judgement) {
     if (lean_rad > config.opposite_candidates.max_lean_rad) return "axis_leans";
     axis.left_P = left->point_P;
     axis.right_P = right->point_P;
-    const double lever_m = (judgement.center_of_mass_P - axis.left_P).cross(closing).norm();
-    probed.badness_rad = lean_rad + config.search.lever_weight_rad_m * lever_m;
+    probed.badness_rad =
+        lean_rad + config.search.lever_weight_rad_m * lever_m(judgement, axis.left_P, closing);
     return nullptr;
 }
 

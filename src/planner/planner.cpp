@@ -37,6 +37,12 @@ double mass_of(const PlanRequest& request, const PreparedObject& object) {
         std::clamp(kDensity_kg_m3 * object.volume_m3, kLeastMass_kg, kGreatestMass_kg));
 }
 
+/// Gravity points against the support plane's normal; without one along -Fz (REP 103).
+Eigen::Vector3d down_F(const PlanRequest& request) {
+    return request.support_plane ? Eigen::Vector3d(-request.support_plane->normal_F)
+                                 : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
+}
+
 std::string strategy_of(const std::vector<Grasp>& grasps) {
     if (grasps.empty()) return "";
     const auto whole = std::ranges::count(grasps, kWholeObject, &Grasp::source);
@@ -125,9 +131,15 @@ PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
     std::vector<GradedGrasp> grasps;
     bool stopped = false;
     for (const Gripper& gripper : request.grippers) {
-        const Judgement judgement{
-            request, object.value(), surroundings.world(), gripper,
-            config,  X_FP,           center_of_mass_P,     mass_of(request, object.value())};
+        const Judgement judgement{request,
+                                  object.value(),
+                                  surroundings.world(),
+                                  gripper,
+                                  config,
+                                  X_FP,
+                                  center_of_mass_P,
+                                  mass_of(request, object.value()),
+                                  X_FP.linear().transpose() * down_F(request)};
         auto found = search_grasps(judgement, stop_requested, answer.log);
         if (!found) return answer.refuse(found.error());
         std::ranges::move(found.value().grasps, std::back_inserter(grasps));

@@ -8,6 +8,7 @@
 #include "graspd/base/parallel.hpp"
 #include "opposite_axes.hpp"
 #include "order_axes.hpp"
+#include "refine_grasps.hpp"
 
 namespace graspd::planner_detail {
 namespace {
@@ -206,7 +207,9 @@ Result<SearchResult> search_grasps(const Judgement& judgement, const StopQuery& 
             rounds.run(std::move(of_source));
         }
     }
-    return rounds.take();
+    SearchResult result = rounds.take();
+    if (!result.stopped) refine_grasps(result.grasps, judgement, log);
+    return result;
 }
 
 }  // namespace graspd::planner_detail

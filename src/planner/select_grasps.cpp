@@ -14,10 +14,7 @@ Result<std::vector<GradedGrasp>> best_of(const std::vector<GradedGrasp>& grasps,
                                          StageLog& log) {
     std::vector<RankedEntry> entries;
     entries.reserve(grasps.size());
-    for (const GradedGrasp& grasp : grasps) {
-        entries.push_back(
-            {grasp.score.score, grasp.X_PG, grasp.gripper->finger_width_m, grasp.axis.concavity});
-    }
+    for (const GradedGrasp& grasp : grasps) entries.push_back(entry_of(grasp));
     const auto ranking = log.run(kRank, entries.size(),
                                  [&] { return rank_grasps(entries, most, config.rank_grasps); });
     if (!ranking) return ranking.error();

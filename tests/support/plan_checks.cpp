@@ -76,7 +76,7 @@ void expect_merits(const Grasp& grasp, const PlanRequest& request, const Planner
     }
     double sum = 0.0;
     for (const ScoreTerm& term : grasp.terms) sum += term.value;
-    EXPECT_EQ(grasp.terms.size(), 6U);
+    EXPECT_EQ(grasp.terms.size(), 7U);
     EXPECT_NEAR(grasp.score, 1.0 / (1.0 + std::exp(-sum)), 1e-9);
 }
 

@@ -104,14 +104,22 @@ TEST(RankGrasps, TheBestOfEachConcavitySurvivesTheCut) {
     const std::vector<RankedEntry> entries = {entry(0.9, 0, 0), entry(0.8, 1, 0), entry(0.7, 2, 0),
                                               entry(0.6, 3, 0), entry(0.3, 4, 1), entry(0.2, 5, 1),
                                               entry(0.4, 6, -1)};
-    const Ranking two = ranked(entries, 2);
+    const RankGraspsConfig config{.likely_score = 0.25};
+    const Ranking two = ranked(entries, 2, config);
     EXPECT_EQ(two.order, (Order{0, 4}));
     EXPECT_EQ(two.surplus, 5U);
-    EXPECT_EQ(ranked(entries, 3).order, (Order{0, 1, 4}));
-    EXPECT_EQ(ranked(entries, 6).order, (Order{0, 1, 2, 3, 6, 4}));
-    const Ranking all = ranked(entries, 7);
+    EXPECT_EQ(ranked(entries, 3, config).order, (Order{0, 1, 4}));
+    EXPECT_EQ(ranked(entries, 6, config).order, (Order{0, 1, 2, 3, 6, 4}));
+    const Ranking all = ranked(entries, 7, config);
     EXPECT_EQ(all.order, (Order{0, 1, 2, 3, 6, 4, 5}));
     EXPECT_EQ(all.surplus, 0U);
+}
+
+// A region's best of 0.3 takes no place from a better one when only 0.5 is likely to hold.
+TEST(RankGrasps, TheBestOfAConcavityIsCutWhenItIsUnlikelyToHold) {
+    const std::vector<RankedEntry> entries = {entry(0.9, 0, 0), entry(0.8, 1, 0), entry(0.3, 2, 1)};
+    EXPECT_EQ(ranked(entries, 2, {.likely_score = 0.5}).order, (Order{0, 1}));
+    EXPECT_EQ(ranked(entries, 2, {.likely_score = 0.3}).order, (Order{0, 2}));
 }
 
 // With room for two of three regions the better two.

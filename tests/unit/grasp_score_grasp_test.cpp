@@ -15,7 +15,8 @@ namespace {
 constexpr ScoreGraspConfig kWeights{.bias = 1.0,
                                     .friction_weight = 2.0,
                                     .balance_weight = 1.0,
-                                    .lever_weight = 4.0,
+                                    .weight_weight = 1.5,
+                                    .torque_weight = 4.0,
                                     .contact_weight = 2.0,
                                     .clearance_weight = 0.5,
                                     .clearance_scale_m = 0.01};
@@ -26,11 +27,8 @@ GraspEvidence plain() {
     evidence.min_friction = 0.3;
     evidence.friction = 0.6;
     evidence.beta_rad = std::numbers::pi / 8.0;
-    evidence.lever_m = 0.01;
-    evidence.mass_kg = 0.2;
-    evidence.grip_force_N = 20.0;
+    evidence.loads = {0.5, 0.3, 0.4};
     evidence.contact_share = 0.5;
-    evidence.contact_radius_m = 0.01;
     evidence.clearance_m = 0.005;
     return evidence;
 }
@@ -47,36 +45,39 @@ double score_of(const GraspEvidence& evidence) {
     return score_grasp(evidence, kWeights).score;
 }
 
-// Half of the friction unused and half of the pads touching weigh 0;
-// pi/8 is half of 45 degrees: -0.5; the weight's torque 0.2 x 9.81 x 0.01 = 0.01962 over friction's
-// 2 x 0.6 x 20 x 0.01 = 0.24 is 0.08175, four times that 0.327; clearance half of 10 mm: 0.25.
-// Bias 1.
+// Half of the friction unused and half of the pads touching weigh 0; pi/8 is half of 45 degrees:
+// -0.5; friction carries the weight twice over: 1.5 ln 2; torsion 0.3 and tilt 0.4 make 0.5, so the
+// torques are carried twice over, too: 4 ln 2; clearance half of 10 mm: 0.25. Bias 1.
 TEST(ScoreGrasp, TermsWorkedByHand) {
     const GraspScore score = score_grasp(plain(), kWeights);
-    ASSERT_EQ(score.terms.size(), 6U);
+    ASSERT_EQ(score.terms.size(), 7U);
     EXPECT_NEAR(term(score, "bias"), 1.0, 1e-12);
     EXPECT_NEAR(term(score, "friction"), 0.0, 1e-12);
     EXPECT_NEAR(term(score, "balance"), -0.5, 1e-12);
-    EXPECT_NEAR(term(score, "lever"), -0.327, 1e-12);
+    EXPECT_NEAR(term(score, "weight"), 1.5 * std::log(2.0), 1e-12);
+    EXPECT_NEAR(term(score, "torque"), 4.0 * std::log(2.0), 1e-12);
     EXPECT_NEAR(term(score, "contact"), 0.0, 1e-12);
     EXPECT_NEAR(term(score, "clearance"), 0.25, 1e-12);
-    EXPECT_NEAR(score.score, 1.0 / (1.0 + std::exp(-(1.0 - 0.5 - 0.327 + 0.25))), 1e-12);
+    EXPECT_NEAR(score.score, 1.0 / (1.0 + std::exp(-(1.0 - 0.5 + 5.5 * std::log(2.0) + 0.25))),
+                1e-12);
 }
 
-// The best possible: 1 + 2 + 0 + 0 + 2 + 0.5.
+// The best possible: 1 + 2 + 0 + 2 + 0.5, and loads carried twenty times over; more adds nothing.
 TEST(ScoreGrasp, TheBestGraspHasAllMerits) {
     GraspEvidence best = plain();
-    best.min_friction = best.beta_rad = best.lever_m = 0.0;
+    best.min_friction = best.beta_rad = 0.0;
+    best.loads = {0.001, 0.0, 0.0};
     best.contact_share = 1.0;
     best.clearance_m = 0.03;  // more than 10 mm adds nothing
-    EXPECT_NEAR(score_of(best), 1.0 / (1.0 + std::exp(-5.5)), 1e-12);
+    EXPECT_NEAR(score_of(best), 1.0 / (1.0 + std::exp(-5.5 - 5.5 * std::log(20.0))), 1e-12);
 }
 
 TEST(ScoreGrasp, EachWeightScalesItsTerm) {
     const ScoreGraspConfig doubled{.bias = 2.0,
                                    .friction_weight = 4.0,
                                    .balance_weight = 2.0,
-                                   .lever_weight = 8.0,
+                                   .weight_weight = 3.0,
+                                   .torque_weight = 8.0,
                                    .contact_weight = 4.0,
                                    .clearance_weight = 1.0};
     GraspEvidence evidence = plain();
@@ -94,11 +95,11 @@ TEST(ScoreGrasp, EachWeightScalesItsTerm) {
 
 TEST(ScoreGrasp, TermsSumToTheLogitOfTheScore) {
     for (const double min_friction : {0.0, 0.2, 0.55, 0.9}) {
-        for (const double lever_m : {0.0, 0.02, 0.5}) {
+        for (const double torsion : {0.0, 0.6, 50.0}) {
             for (const double share : {0.0, 0.3, 1.0}) {
                 GraspEvidence evidence = plain();
                 evidence.min_friction = min_friction;
-                evidence.lever_m = lever_m;
+                evidence.loads.torsion = torsion;
                 evidence.contact_share = share;
                 const GraspScore score = score_grasp(evidence, kWeights);
                 double sum = 0.0;
@@ -125,17 +126,27 @@ TEST(ScoreGrasp, RisesAndFallsWithTheEvidence) {
     expect_falls(&GraspEvidence::min_friction, {0.0, 0.1, 0.3, 0.5, 0.6});
     expect_falls(&GraspEvidence::friction, {2.0, 1.0, 0.6, 0.31});
     expect_falls(&GraspEvidence::beta_rad, {0.0, 0.1, 0.5, 1.5, 3.0});
-    expect_falls(&GraspEvidence::lever_m, {0.0, 0.001, 0.01, 0.1});
-    expect_falls(&GraspEvidence::mass_kg, {0.01, 0.1, 1.0, 5.0});
-    expect_falls(&GraspEvidence::grip_force_N, {200.0, 20.0, 2.0});
     expect_falls(&GraspEvidence::contact_share, {1.0, 0.6, 0.2, 0.0});
-    expect_falls(&GraspEvidence::contact_radius_m, {0.02, 0.01, 0.002});
     expect_falls(&GraspEvidence::clearance_m, {0.01, 0.006, 0.001, 0.0});
     GraspEvidence far = plain();
     far.clearance_m = 0.01;
     const double enough = score_of(far);
     far.clearance_m = 0.05;
     EXPECT_DOUBLE_EQ(score_of(far), enough);
+}
+
+// The larger a load, the lower the score, whichever it is; beyond twenty times the limit it makes
+// no difference.
+TEST(ScoreGrasp, FallsWithEveryLoad) {
+    for (double LoadRatios::*load : {&LoadRatios::slip, &LoadRatios::torsion, &LoadRatios::tilt}) {
+        GraspEvidence light = plain(), heavy = plain(), crushing = plain();
+        heavy.loads.*load = 1.5;
+        light.loads.*load = 0.2;
+        EXPECT_GT(score_of(light), score_of(heavy));
+        heavy.loads.*load = 30.0;
+        crushing.loads.*load = std::numeric_limits<double>::infinity();
+        EXPECT_DOUBLE_EQ(score_of(heavy), score_of(crushing));
+    }
 }
 
 // 0.5 kg on two fingers at mu 0.6 that needs 0.1 to hold: 4.905 / (2 x 0.5).

@@ -128,6 +128,28 @@ TEST(Plan, ACupIsGrippedByItsRim) {
     EXPECT_LT(best.X_FG.linear()(2, 2), -0.7);  // from above
 }
 
+// Small moves make no grasp worse and, of these shapes, the best of the cup and the block better.
+// Clearance is weighed after the moves, so it is left out here.
+TEST(Plan, RefinementRaisesTheScore) {
+    PlannerConfig plain;
+    plain.score_grasp.clearance_weight = 0.0;
+    plain.search.refined = 0;
+    PlannerConfig refined = plain;
+    refined.search.refined = 5;
+    int better = 0;
+    for (const TriangleMesh& mesh :
+         {test::cup(0.045, 0.09, 0.004, 4000), test::box({0.05, 0.12, 0.2}, 2000),
+          test::box({0.06, 0.04, 0.08})}) {
+        const PlanReply before = plan(request_for(mesh), plain);
+        const PlanReply after = plan(request_for(mesh), refined);
+        ASSERT_EQ(before.status, PlanStatus::kOk);
+        ASSERT_EQ(after.status, PlanStatus::kOk);
+        EXPECT_GE(after.grasps.front().score, before.grasps.front().score);
+        better += after.grasps.front().score > before.grasps.front().score ? 1 : 0;
+    }
+    EXPECT_GE(better, 2);
+}
+
 /// An object that cannot be planned for and what the message must name.
 struct Flaw {
     const char* name;

@@ -50,7 +50,9 @@ TEST(PlanStops, WithWhatTheCompletedRoundsGave) {
     PlanRequest boundary = request, concavity = request;
     boundary.options.sources = kBoundary;
     concavity.options.sources = kBoundary | kWall;
-    const std::vector<PlanReply> rounds = {plan(boundary, {}), plan(concavity, {})};
+    PlannerConfig unrefined;  // refinement is the last round
+    unrefined.search.refined = 0;
+    const std::vector<PlanReply> rounds = {plan(boundary, unrefined), plan(concavity, unrefined)};
     std::size_t stage = 0;
     bool seen_none = false;
     std::vector<bool> seen(2, false);

@@ -14,11 +14,13 @@ namespace graspd {
 struct RankGraspsConfig {
     double same_distance_finger_widths = 0.5;  ///< [1] between their TCPs
     double same_angle_rad = 0.26;              ///< [rad] between their frames, about 15 degrees
+    double likely_score = 0.5;  ///< from which the best of a concavity is never cut off
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         visit("same_distance_finger_widths", self.same_distance_finger_widths, 0.0, 10.0);
         visit("same_angle_rad", self.same_angle_rad, 0.0, 3.2);
+        visit("likely_score", self.likely_score, 0.0, 1.0);
     }
 };
 
@@ -44,8 +46,9 @@ double grasp_angle_rad(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
 /// Ranks by falling score, ties by index, without duplicates.
 ///
 /// Source: Lei & Wisse 2016, Sec. II-F: best candidate per concavity, then the best over all.
-/// Deviation: several grasps a concavity may be returned; but the best one of each concavity is
-/// never cut off by max_grasps as long as there are no more concavities than that.
+/// Deviation: several grasps a concavity may be returned; but the best one of each concavity, if it
+/// is likely to hold, is never cut off by max_grasps as long as there are no more concavities than
+/// that.
 ///
 /// @return kInvalidInput for a score that is not finite, max_grasps of 0 or a parameter out of
 ///         range

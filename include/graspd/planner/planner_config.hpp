@@ -4,9 +4,11 @@
 #include "graspd/concavity/vertex_concavity.hpp"
 #include "graspd/contour/boundary_points.hpp"
 #include "graspd/contour/concave_hull.hpp"
+#include "graspd/grasp/contact_patch.hpp"
 #include "graspd/grasp/force_balance.hpp"
 #include "graspd/grasp/grasp_candidates.hpp"
 #include "graspd/grasp/grasp_sides.hpp"
+#include "graspd/grasp/load_ratios.hpp"
 #include "graspd/grasp/local_cloud.hpp"
 #include "graspd/grasp/opposite_candidates.hpp"
 #include "graspd/grasp/rank_grasps.hpp"
@@ -41,6 +43,8 @@ struct PlannerConfig {
     GraspCandidatesConfig grasp_candidates;
     OppositeCandidatesConfig opposite_candidates;
     LocalCloudConfig local_cloud;
+    ContactPatchConfig contact_patch;
+    LoadRatiosConfig load_ratios;
     ManipulabilityConfig manipulability;
     ScoreGraspConfig score_grasp;
     RankGraspsConfig rank_grasps;
@@ -65,6 +69,8 @@ struct PlannerConfig {
         visit("grasp_candidates", self.grasp_candidates);
         visit("opposite_candidates", self.opposite_candidates);
         visit("local_cloud", self.local_cloud);
+        visit("contact_patch", self.contact_patch);
+        visit("load_ratios", self.load_ratios);
         visit("manipulability", self.manipulability);
         visit("score_grasp", self.score_grasp);
         visit("rank_grasps", self.rank_grasps);

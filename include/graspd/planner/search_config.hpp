@@ -20,6 +20,10 @@ struct SearchConfig {
     std::uint32_t poses_per_round = 1000;  ///< or when so many poses were checked in full
     double lever_weight_rad_m = 4.0;       ///< [rad/m] of the lever against the lean, when axes are
                                            ///< chosen
+    std::uint32_t refined = 5;             ///< best grasps that are improved by small moves
+    std::uint32_t refine_rounds = 3;       ///< of moves to either side, each half as far as before
+    double refine_shift_m = 0.006;         ///< [m] first move along Gy and Gz
+    double refine_turn_rad = 0.2;          ///< [rad] first turn about Gx, Gy and Gz
     double most_clearance_m = 0.05;        ///< [m] clearance is measured up to here
 
     template <class Self, class Visitor>
@@ -35,6 +39,10 @@ struct SearchConfig {
         visit("axes_per_round", self.axes_per_round, 1u, 100000u);
         visit("poses_per_round", self.poses_per_round, 1u, 10000000u);
         visit("lever_weight_rad_m", self.lever_weight_rad_m, 0.0, 100.0);
+        visit("refined", self.refined, 0u, 1000u);
+        visit("refine_rounds", self.refine_rounds, 0u, 20u);
+        visit("refine_shift_m", self.refine_shift_m, 0.0, 0.1);
+        visit("refine_turn_rad", self.refine_turn_rad, 0.0, 1.0);
         visit("most_clearance_m", self.most_clearance_m, 1e-3, 1.0);
     }
 };
