@@ -26,6 +26,8 @@ public:
         return sources == 0 || (sources & source) != 0;
     }
     void run(std::vector<ClosingAxis> axes);
+    /// Counts axes of a source that the request does not ask for.
+    void leave_out(std::size_t axes) { result_.rejections.add("axis_source_unwanted", axes); }
     SearchResult take() { return std::move(result_); }
 
 private:
@@ -105,11 +107,15 @@ Result<SearchResult> search_grasps(const Judgement& judgement, const StopQuery& 
         const auto axes =
             opposite_axes(concavities.value(), surface.value(), object, gripper, config, log);
         for (const GraspSource source : {kWall, kWholeObject}) {
-            if (!rounds.wanted(source) || rounds.stopped()) continue;
+            if (rounds.stopped()) continue;
             std::vector<ClosingAxis> of_source;
             std::ranges::copy_if(axes, std::back_inserter(of_source),
                                  [&](const ClosingAxis& a) { return a.source == source; });
-            rounds.run(std::move(of_source));
+            if (rounds.wanted(source)) {
+                rounds.run(std::move(of_source));
+            } else {
+                rounds.leave_out(of_source.size());
+            }
         }
     }
     return rounds.take();
