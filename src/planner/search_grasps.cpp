@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "boundary_axes.hpp"
-#include "find_concavities.hpp"
 #include "find_poses.hpp"
 #include "opposite_axes.hpp"
 #include "order_axes.hpp"
@@ -81,31 +80,21 @@ bool Rounds::try_axis(const ClosingAxis& axis, std::uint32_t& poses_left, Search
 
 }  // namespace
 
-Result<SearchResult> search_grasps(const Judgement& judgement, const StopQuery& stop_requested,
-                                   StageLog& log) {
+SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen,
+                           const StopQuery& stop_requested, StageLog& log) {
     const PlannerConfig& config = judgement.config;
     const Gripper& gripper = judgement.gripper;
     const PreparedObject& object = judgement.object;
-    const auto surface = log.run("mesh/sample_surface", object.mesh_P.faces.size(), [&] {
-        return sample_surface(object.mesh_P, object.field.value_m, gripper.finger_width_m,
-                              config.sample_surface);
-    });
-    if (!surface) return surface.error();
-    log.out("mesh/sample_surface", surface.value().samples.size());
-    const auto concavities =
-        find_concavities(surface.value(), gripper.finger_thickness_m, config, log);
-    if (!concavities) return concavities.error();
-
+    const auto& [surface, concavities] = seen;
     Rounds rounds(judgement, stop_requested, log);
     if (rounds.wanted(kBoundary)) {
-        for (std::size_t i = 0; i < concavities.value().size() && !rounds.stopped(); ++i) {
-            rounds.run(boundary_axes(concavities.value()[i], static_cast<std::int32_t>(i),
-                                     surface.value(), object, gripper, config, log));
+        for (std::size_t i = 0; i < concavities.size() && !rounds.stopped(); ++i) {
+            rounds.run(boundary_axes(concavities[i], static_cast<std::int32_t>(i), surface, object,
+                                     gripper, config, log));
         }
     }
     if ((rounds.wanted(kWall) || rounds.wanted(kWholeObject)) && !rounds.stopped()) {
-        const auto axes =
-            opposite_axes(concavities.value(), surface.value(), object, gripper, config, log);
+        const auto axes = opposite_axes(concavities, surface, object, gripper, config, log);
         for (const GraspSource source : {kWall, kWholeObject}) {
             if (rounds.stopped()) continue;
             std::vector<ClosingAxis> of_source;
