@@ -56,6 +56,8 @@ void add_plan(CLI::App& command, Arguments& to) {
     command.add_option("--friction", to.plan.friction, "coefficient")->check(CLI::PositiveNumber);
     command.add_option("--up", to.plan.up, "X,Y,Z: the object stands on a plane normal to this");
     command.add_option("--sources", to.plan.sources, "boundary,wall,whole_object or all");
+    command.add_flag("--suggest", to.plan.suggest,
+                     "say what would help, also when there are grasps");
     command.add_option("--seed", to.plan.seed, "of every random draw");
     command.add_option("--frame", to.plan.frame_id, "name of the file's frame, echoed");
     command.add_option("--report", to.output.report, "directory for reply.json and reply.txt");

@@ -101,6 +101,7 @@ Result<PlanRequest> make_request(const PlanArguments& arguments,
     request.options.time_budget_s = arguments.time_budget_ms * 1e-3;
     request.options.friction = arguments.friction;
     request.options.sources = sources.value();
+    request.options.want_suggestion = arguments.suggest;
     request.options.seed = arguments.seed;
     return request;
 }

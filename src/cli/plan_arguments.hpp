@@ -26,6 +26,7 @@ struct PlanArguments {
     std::string up = "none";      ///< "X,Y,Z" or "none"
     std::string concavity;        ///< "any_angle", "tetrahedral", or empty: as configured
     std::string sources = "all";  ///< comma-separated names
+    bool suggest = false;         ///< also when there are grasps
     std::uint64_t seed = 0;
     std::string frame_id = "object";
     std::string request_id;  ///< empty: the file's stem

@@ -54,4 +54,17 @@ Result<std::vector<Concavity>> find_concavities(const SurfaceSamples& surface,
     return found;
 }
 
+Result<SeenSurface> see_surface(const PreparedObject& object, const Gripper& gripper,
+                                const PlannerConfig& config, StageLog& log) {
+    auto surface = log.run("mesh/sample_surface", object.mesh_P.faces.size(), [&] {
+        return sample_surface(object.mesh_P, object.field.value_m, gripper.finger_width_m,
+                              config.sample_surface);
+    });
+    if (!surface) return surface.error();
+    log.out("mesh/sample_surface", surface.value().samples.size());
+    auto concavities = find_concavities(surface.value(), gripper.finger_thickness_m, config, log);
+    if (!concavities) return concavities.error();
+    return SeenSurface{std::move(surface).value(), std::move(concavities).value()};
+}
+
 }  // namespace graspd::planner_detail

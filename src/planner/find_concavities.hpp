@@ -4,6 +4,7 @@
 
 #include "graspd/mesh/sample_surface.hpp"
 #include "graspd/planner/planner_config.hpp"
+#include "prepare_object.hpp"
 #include "stage_log.hpp"
 
 namespace graspd::planner_detail {
@@ -16,5 +17,14 @@ namespace graspd::planner_detail {
 Result<std::vector<Concavity>> find_concavities(const SurfaceSamples& surface,
                                                 double finger_thickness_m,
                                                 const PlannerConfig& config, StageLog& log);
+
+/// What a gripper's search sees of an object: depends on the size of its fingers, on no limit.
+struct SeenSurface {
+    SurfaceSamples surface;
+    std::vector<Concavity> concavities;  ///< of `surface`, deepest first
+};
+/// Samples the surface as finely as a finger is wide, and finds its concavities.
+Result<SeenSurface> see_surface(const PreparedObject& object, const Gripper& gripper,
+                                const PlannerConfig& config, StageLog& log);
 
 }  // namespace graspd::planner_detail

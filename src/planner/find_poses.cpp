@@ -2,17 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace graspd::planner_detail {
 namespace {
 
-bool approach_allowed(const Judgement& judgement, const Eigen::Isometry3d& X_PG) {
+/// The approach cone that a hand's approach misses least.
+struct NearestCone {
+    double outside_rad = 0.0;     ///< [rad] by how much; not above 0: inside
+    double half_angle_rad = 1.0;  ///< [rad] of that cone
+};
+NearestCone nearest_cone(const Judgement& judgement, const Eigen::Isometry3d& X_PG) {
     const auto& cones = judgement.request.approach_cones;
+    if (cones.empty()) return {};
     const Eigen::Vector3d z_F = judgement.X_FP.linear() * X_PG.linear().col(2);
-    return cones.empty() || std::ranges::any_of(cones, [&](const ApproachCone& cone) {
-               return std::acos(std::clamp(z_F.dot(cone.axis_F), -1.0, 1.0)) <= cone.half_angle_rad;
-           });
+    NearestCone nearest{std::numeric_limits<double>::infinity(), 1.0};
+    for (const ApproachCone& cone : cones) {
+        const double angle_rad = std::acos(std::clamp(z_F.dot(cone.axis_F), -1.0, 1.0));
+        const double outside_rad = angle_rad - cone.half_angle_rad;
+        if (outside_rad < nearest.outside_rad) nearest = {outside_rad, cone.half_angle_rad};
+    }
+    return nearest;
 }
 
 /// Looks along the middle lines of palm and fingers. @return the typed reason when one is blocked
@@ -48,9 +59,14 @@ std::vector<ApproachPose> find_poses(const ClosingAxis& axis, const Judgement& j
             const ApproachPose pose{2.0 * std::numbers::pi * turn / search.approaches,
                                     side * steps * step_m};
             const Eigen::Isometry3d X_PG = local_frame(axis, pose);
-            if (!approach_allowed(judgement, X_PG)) {
+            const NearestCone cone = nearest_cone(judgement, X_PG);
+            const char* reason = line_blocked(judgement, X_PG, width_m);
+            if (cone.outside_rad > 0.0 && reason == nullptr) {
+                rejections.add_miss("outside_approach_cones", X_PG, cone.outside_rad, "rad",
+                                    cone.half_angle_rad);
+            } else if (cone.outside_rad > 0.0) {
                 rejections.add("outside_approach_cones");
-            } else if (const char* reason = line_blocked(judgement, X_PG, width_m)) {
+            } else if (reason != nullptr) {
                 rejections.add(reason);
             } else {
                 poses.push_back(pose);

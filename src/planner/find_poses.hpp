@@ -11,8 +11,8 @@ namespace graspd::planner_detail {
 /// The ways in which a hand can come to a closing axis: directions about it, and depths.
 ///
 /// Reach is judged by the middle lines of palm and fingers alone; a pose whose lines are blocked
-/// needs no full check. A pose that falls is counted: outside_approach_cones, palm_line_blocked,
-/// finger_line_blocked.
+/// needs no full check. A pose that falls is counted: outside_approach_cones (with its margin where
+/// the lines are free), palm_line_blocked, finger_line_blocked.
 std::vector<ApproachPose> find_poses(const ClosingAxis& axis, const Judgement& judgement,
                                      Rejections& rejections);
 

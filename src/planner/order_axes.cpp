@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kSameBadness_rad = 1e-7;  // less is rounding: then the order of axes decides
 
+constexpr const char* kTooWide = "axis_too_wide";
+
 struct Touch {
     Eigen::Vector3d point_P, normal_P;
 };
@@ -61,15 +63,25 @@ const char* probe(ProbedAxis& probed, const Judgement& judgement) {
     if (!left || !right) return "axis_no_contact";
     const double width_m = closing.dot(right->point_P - left->point_P);
     if (width_m <= judgement.gripper.min_width_m) return "axis_no_contact";
-    if (width_m >= judgement.gripper.max_width_m) return "axis_too_wide";
     const double lean_rad = std::max(angle_between_rad(closing, -left->normal_P),
                                      angle_between_rad(closing, right->normal_P));
     if (lean_rad > config.opposite_candidates.max_lean_rad) return "axis_leans";
     axis.left_P = left->point_P;
     axis.right_P = right->point_P;
+    if (width_m >= judgement.gripper.max_width_m) return kTooWide;
     probed.badness_rad =
         lean_rad + config.search.lever_weight_rad_m * lever_m(judgement, axis.left_P, closing);
     return nullptr;
+}
+
+/// Counts an axis that fell; one that is too wide misses by what the opening lacks.
+void count(const ClosingAxis& axis, const char* reason, const Judgement& judgement,
+           Rejections& rejections) {
+    if (reason != kTooWide) return rejections.add(reason);
+    const double opening_m = judgement.gripper.max_width_m;
+    const double margin_m = least_preshape_margin_m(judgement.config.manipulability);
+    const double needed_m = (axis.right_P - axis.left_P).norm() + 2.0 * margin_m;
+    rejections.add_miss(reason, local_frame(axis, {}), needed_m - opening_m, "m", opening_m);
 }
 
 }  // namespace
@@ -90,7 +102,7 @@ std::vector<ClosingAxis> order_axes(std::vector<ClosingAxis> axes, const Judgeme
     for (ClosingAxis& axis : axes) {
         ProbedAxis candidate{std::move(axis), 0.0};
         if (const char* reason = probe(candidate, judgement)) {
-            rejections.add(reason);
+            count(candidate.axis, reason, judgement, rejections);
         } else {
             probed.push_back(std::move(candidate));
         }

@@ -11,7 +11,7 @@ namespace graspd::planner_detail {
 /// Puts closing axes in the order in which they are worth a full check: those on which a single
 /// line sees two touches that lean little from it and lie near the centre of mass first.
 ///
-/// An axis that falls is counted: axis_no_contact, axis_leans, axis_too_wide.
+/// An axis that falls is counted: axis_no_contact, axis_leans, axis_too_wide (with its margin).
 /// @return the axes, best first, their places moved to where the line touches
 std::vector<ClosingAxis> order_axes(std::vector<ClosingAxis> axes, const Judgement& judgement,
                                     Rejections& rejections);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "answer.hpp"
 #include "check_request.hpp"
 #include "graspd/base/fnv1a.hpp"
 #include "graspd/base/settings.hpp"
 #include "search_grasps.hpp"
 #include "select_grasps.hpp"
+#include "suggest.hpp"
 
 namespace graspd {
 namespace {
@@ -23,15 +25,6 @@ std::optional<PlanError> check_settings(const PlannerConfig& config) {
     return validate<PlannerConfig>(config);
 }
 
-PlanStatus status_of(PlanErrorCode code) {
-    switch (code) {
-        case PlanErrorCode::kUnknownGripper: return PlanStatus::kUnknownGripper;
-        case PlanErrorCode::kUnknownObject: return PlanStatus::kUnknownObject;
-        case PlanErrorCode::kInternal: return PlanStatus::kInternalError;
-        default: return PlanStatus::kInvalidRequest;
-    }
-}
-
 double mass_of(const PlanRequest& request, const PreparedObject& object) {
     return request.options.mass_kg.value_or(
         std::clamp(kDensity_kg_m3 * object.volume_m3, kLeastMass_kg, kGreatestMass_kg));
@@ -43,49 +36,81 @@ Eigen::Vector3d down_F(const PlanRequest& request) {
                                  : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
 }
 
-std::string strategy_of(const std::vector<Grasp>& grasps) {
-    if (grasps.empty()) return "";
-    const auto whole = std::ranges::count(grasps, kWholeObject, &Grasp::source);
-    if (whole == 0) return "concavity";
-    return whole == std::ssize(grasps) ? "whole_object" : "mixed";
-}
+/// Where the object is and what it weighs: the same whatever limits are planned within.
+struct Scene {
+    const PreparedObject& object;
+    Eigen::Isometry3d X_FP;
+    Surroundings surroundings;
+    Eigen::Vector3d center_of_mass_P;
+    double mass_kg;
+    Eigen::Vector3d down_P;         ///< unit, of gravity
+    std::vector<SeenSurface> seen;  ///< by the request's grippers, as far as they were asked
 
-std::string why_none(const std::vector<RejectionCount>& rejections) {
-    if (rejections.empty()) return "no candidate was found";
-    std::uint64_t all = 0;
-    for (const RejectionCount& row : rejections) all += row.count;
-    return "none of " + std::to_string(all) + " candidates holds and is free; most fell by " +
-           rejections.front().reason + " (" + std::to_string(rejections.front().count) + ")";
-}
-
-/// The reply under construction.
-struct Answer {
-    PlanReply reply;
-    StageLog log;
-    Rejections rejections;
-
-    PlanReply refuse(const PlanError& error) {
-        reply.status = status_of(error.code);
-        reply.message = error.detail;
-        reply.report.stages = log.take();
-        return std::move(reply);
-    }
-    PlanReply finish(std::vector<Grasp> grasps, bool stopped, const Eigen::Isometry3d& X_FP) {
-        reply.grasps = std::move(grasps);
-        reply.strategy = strategy_of(reply.grasps);
-        reply.report.rejections = rejections.counts();
-        reply.report.near_misses = rejections.misses();
-        for (NearMiss& miss : reply.report.near_misses) miss.X_FG = X_FP * miss.X_FG;
-        reply.report.stages = log.take();
-        const bool none = reply.grasps.empty();
-        reply.status =
-            stopped ? PlanStatus::kPartial : (none ? PlanStatus::kNoGrasp : PlanStatus::kOk);
-        if (stopped)
-            reply.message = "stopped before the end; the best of the rounds that were done";
-        if (none && !stopped) reply.message = why_none(reply.report.rejections);
-        return std::move(reply);
-    }
+    Scene(const PlanRequest& request, const PreparedObject& prepared)
+        : object(prepared),
+          X_FP(request.X_FO * prepared.X_OP),
+          surroundings(request, prepared, X_FP.inverse()),
+          center_of_mass_P(
+              request.options.center_of_mass_O
+                  ? Eigen::Vector3d(prepared.X_OP.inverse() * *request.options.center_of_mass_O)
+                  : prepared.center_of_mass_P),
+          mass_kg(mass_of(request, prepared)),
+          down_P(X_FP.linear().transpose() * down_F(request)) {}
 };
+
+/// Sections II-B to II-F (concavities, boundaries, candidates, force balance, manipulability): what
+/// there is within the limits of a request.
+Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const PlannerConfig& config,
+                          const StopQuery& stop_requested, StageLog& log) {
+    Found found;
+    std::vector<GradedGrasp> grasps;
+    for (std::size_t i = 0; i < request.grippers.size() && !found.stopped; ++i) {
+        const Gripper& gripper = request.grippers[i];
+        if (scene.seen.size() == i) {
+            auto seen = see_surface(scene.object, gripper, config, log);
+            if (!seen) return seen.error();
+            scene.seen.push_back(std::move(seen).value());
+        }
+        const Judgement judgement{
+            request,     scene.object, scene.surroundings.world(), gripper,
+            config,      scene.X_FP,   scene.center_of_mass_P,     scene.mass_kg,
+            scene.down_P};
+        auto of_gripper = search_grasps(judgement, scene.seen[i], stop_requested, log);
+        std::ranges::move(of_gripper.grasps, std::back_inserter(grasps));
+        found.rejections.merge(of_gripper.rejections);
+        found.stopped = of_gripper.stopped;
+    }
+    // II-F: the best per concavity, then the best over all.
+    auto best = select_grasps(std::move(grasps), scene.surroundings.world(), request, config,
+                              scene.X_FP, found.rejections, log);
+    if (!best) return best.error();
+    found.grasps = std::move(best).value();
+    return found;
+}
+
+/// What would help, by planning again for the same object within other limits.
+std::string suggestion_for(const PlanRequest& request, const Found& found, Scene& scene,
+                           const PlannerConfig& config, const StopQuery& stop_requested,
+                           StageLog& log) {
+    constexpr const char* kSuggest = "planner/suggest";
+    PlanRequest limits = request;  // copied for every plan, so without its bulk
+    limits.object_O = TriangleMesh{};
+    limits.obstacles.clear();
+    const Replan replan = [&](const PlanRequest& changed) -> std::optional<std::vector<Grasp>> {
+        StageLog log_of_its_own;
+        auto again = find_grasps(changed, scene, config, stop_requested, log_of_its_own);
+        if (!again) return std::vector<Grasp>{};
+        if (again.value().stopped) return std::nullopt;
+        return std::move(again.value().grasps);
+    };
+    const double widest_m =
+        mesh_diagonal_m(scene.object.mesh_P) + 2.0 * config.manipulability.preshape_margin_m;
+    const Verdict verdict{limits, found.grasps, found.rejections, widest_m};
+    const auto suggestion =
+        log.run(kSuggest, 0, [&] { return suggest(verdict, config.suggest, replan); });
+    log.count(kSuggest, suggestion.plans, suggestion.text.empty() ? 0 : 1);
+    return suggestion.text;
+}
 
 }  // namespace
 
@@ -108,51 +133,27 @@ std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O
 
 PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
                const StopQuery& stop_requested) {
-    Answer answer;
-    answer.reply.request_id = request.request_id;
-    answer.reply.frame_id = request.frame_id;
+    Answer answer(request);
     if (const auto bad = check_settings(config)) return answer.refuse(*bad);
     if (const auto bad = check_request(request)) return answer.refuse(*bad);
     answer.reply.object_key = object_key_of(request.object_O);
 
     // II-A: the object and its concavity.
-    auto object = prepare_object(request.object_O, config, answer.log);
+    const auto object = prepare_object(request.object_O, config, answer.log);
     if (!object) return answer.refuse(object.error());
     answer.reply.report.findings = object.value().findings;
-    const Eigen::Isometry3d& X_OP = object.value().X_OP;
-    const Eigen::Isometry3d X_FP = request.X_FO * X_OP;
-    const Surroundings surroundings(request, object.value(), X_FP.inverse());
-    const Eigen::Vector3d center_of_mass_P =
-        request.options.center_of_mass_O
-            ? Eigen::Vector3d(X_OP.inverse() * *request.options.center_of_mass_O)
-            : object.value().center_of_mass_P;
 
-    // II-B to II-F: concavities, boundaries, candidates, force balance, manipulability.
-    std::vector<GradedGrasp> grasps;
-    bool stopped = false;
-    for (const Gripper& gripper : request.grippers) {
-        const Judgement judgement{request,
-                                  object.value(),
-                                  surroundings.world(),
-                                  gripper,
-                                  config,
-                                  X_FP,
-                                  center_of_mass_P,
-                                  mass_of(request, object.value()),
-                                  X_FP.linear().transpose() * down_F(request)};
-        auto found = search_grasps(judgement, stop_requested, answer.log);
-        if (!found) return answer.refuse(found.error());
-        std::ranges::move(found.value().grasps, std::back_inserter(grasps));
-        answer.rejections.merge(found.value().rejections);
-        stopped = found.value().stopped;
-        if (stopped) break;
+    Scene scene(request, object.value());
+    const auto found = find_grasps(request, scene, config, stop_requested, answer.log);
+    if (!found) return answer.refuse(found.error());
+    answer.conclude(found.value(), scene.X_FP);
+
+    const bool wanted = request.options.want_suggestion || found.value().grasps.empty();
+    if (wanted && !found.value().stopped) {
+        answer.reply.report.suggestion =
+            suggestion_for(request, found.value(), scene, config, stop_requested, answer.log);
     }
-
-    // II-F: the best per concavity, then the best over all.
-    auto best = select_grasps(std::move(grasps), surroundings.world(), request, config, X_FP,
-                              answer.rejections, answer.log);
-    if (!best) return answer.refuse(best.error());
-    return answer.finish(std::move(best).value(), stopped, X_FP);
+    return answer.finish();
 }
 
 }  // namespace graspd

@@ -11,6 +11,7 @@ void Rejections::add(const std::string& reason, std::uint64_t count) {
 void Rejections::add_miss(const std::string& reason, const Eigen::Isometry3d& X_PG, double margin,
                           const char* unit, double scale) {
     add(reason);
+    note(reason, margin);
     keep({margin / scale, {X_PG, reason, margin, unit}});
 }
 
@@ -22,7 +23,24 @@ void Rejections::keep(const Miss& miss) {
 
 void Rejections::merge(const Rejections& other) {
     for (const auto& [reason, count] : other.counts_) add(reason, count);
+    for (const auto& [reason, margin] : other.least_margins_) note(reason, margin);
     for (const Miss& miss : other.misses_) keep(miss);
+}
+
+void Rejections::note(const std::string& reason, double margin) {
+    const auto [entry, is_new] = least_margins_.try_emplace(reason, margin);
+    if (!is_new) entry->second = std::min(entry->second, margin);
+}
+
+std::optional<double> Rejections::least_margin(const std::string& reason) const {
+    const auto found = least_margins_.find(reason);
+    if (found == least_margins_.end()) return std::nullopt;
+    return found->second;
+}
+
+std::uint64_t Rejections::count(const std::string& reason) const {
+    const auto found = counts_.find(reason);
+    return found == counts_.end() ? 0 : found->second;
 }
 
 std::vector<RejectionCount> Rejections::counts() const {

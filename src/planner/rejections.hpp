@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,11 @@ public:
                   const char* unit, double scale);
     void merge(const Rejections& other);
 
+    std::uint64_t count(const std::string& reason) const;
     std::vector<RejectionCount> counts() const;  ///< most frequent first, ties by name
     std::vector<NearMiss> misses() const;        ///< nearest first, poses in P
+    /// Of all misses by a reason, also those that are not among the nearest, the least margin.
+    std::optional<double> least_margin(const std::string& reason) const;
 
 private:
     struct Miss {
@@ -30,7 +34,10 @@ private:
     };
     void keep(const Miss& miss);
 
+    void note(const std::string& reason, double margin);
+
     std::map<std::string, std::uint64_t> counts_;
+    std::map<std::string, double> least_margins_;
     std::vector<Miss> misses_;
 };
 

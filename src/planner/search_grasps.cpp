@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "boundary_axes.hpp"
-#include "find_concavities.hpp"
 #include "find_poses.hpp"
 #include "graspd/base/parallel.hpp"
 #include "opposite_axes.hpp"
@@ -130,6 +129,8 @@ public:
         return sources == 0 || (sources & source) != 0;
     }
     void run(std::vector<ClosingAxis> axes);
+    /// Counts axes of a source that the request does not ask for.
+    void leave_out(std::size_t axes) { result_.rejections.add("axis_source_unwanted", axes); }
     SearchResult take() { return std::move(result_); }
 
 private:
@@ -174,37 +175,31 @@ std::vector<std::vector<ClosingAxis>> axes_of(const std::vector<Concavity>& conc
 
 }  // namespace
 
-Result<SearchResult> search_grasps(const Judgement& judgement, const StopQuery& stop_requested,
-                                   StageLog& log) {
+SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen,
+                           const StopQuery& stop_requested, StageLog& log) {
     const PlannerConfig& config = judgement.config;
     const Gripper& gripper = judgement.gripper;
     const PreparedObject& object = judgement.object;
-    const auto surface = log.run("mesh/sample_surface", object.mesh_P.faces.size(), [&] {
-        return sample_surface(object.mesh_P, object.field.value_m, gripper.finger_width_m,
-                              config.sample_surface);
-    });
-    if (!surface) return surface.error();
-    log.out("mesh/sample_surface", surface.value().samples.size());
-    const auto concavities =
-        find_concavities(surface.value(), gripper.finger_thickness_m, config, log);
-    if (!concavities) return concavities.error();
-
+    const auto& [surface, concavities] = seen;
     Rounds rounds(judgement, stop_requested, log);
     if (rounds.wanted(kBoundary) && !rounds.stopped()) {
-        for (auto& axes : axes_of(concavities.value(), surface.value(), judgement, log)) {
+        for (auto& axes : axes_of(concavities, surface, judgement, log)) {
             if (rounds.stopped()) break;
             rounds.run(std::move(axes));
         }
     }
     if ((rounds.wanted(kWall) || rounds.wanted(kWholeObject)) && !rounds.stopped()) {
-        const auto axes =
-            opposite_axes(concavities.value(), surface.value(), object, gripper, config, log);
+        const auto axes = opposite_axes(concavities, surface, object, gripper, config, log);
         for (const GraspSource source : {kWall, kWholeObject}) {
-            if (!rounds.wanted(source) || rounds.stopped()) continue;
+            if (rounds.stopped()) continue;
             std::vector<ClosingAxis> of_source;
             std::ranges::copy_if(axes, std::back_inserter(of_source),
                                  [&](const ClosingAxis& a) { return a.source == source; });
-            rounds.run(std::move(of_source));
+            if (rounds.wanted(source)) {
+                rounds.run(std::move(of_source));
+            } else {
+                rounds.leave_out(of_source.size());
+            }
         }
     }
     SearchResult result = rounds.take();

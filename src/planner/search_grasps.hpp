@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "evaluate_pose.hpp"
+#include "find_concavities.hpp"
 #include "graspd/planner/planner.hpp"
 
 namespace graspd::planner_detail {
@@ -16,9 +17,9 @@ struct SearchResult {
 
 /// Sections II-B to II-F for one gripper: a round for each concavity, one across its walls, one
 /// across the whole object.
+/// @param seen            by a gripper with fingers of that size
 /// @param stop_requested  asked before each round and within; may be empty
-/// @return kInvalidInput or kInternal when a stage refuses the object as a whole
-Result<SearchResult> search_grasps(const Judgement& judgement, const StopQuery& stop_requested,
-                                   StageLog& log);
+SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen,
+                           const StopQuery& stop_requested, StageLog& log);
 
 }  // namespace graspd::planner_detail

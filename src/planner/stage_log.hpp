@@ -26,6 +26,11 @@ public:
         stage.in += in;
         return result;
     }
+    /// Adds to a stage's counts, where the inputs are known only afterwards.
+    void count(const char* name, std::uint64_t in, std::uint64_t out) {
+        entry(name).in += in;
+        entry(name).out += out;
+    }
     /// Adds to a stage's count of outputs.
     void out(const char* name, std::uint64_t count) { entry(name).out += count; }
 

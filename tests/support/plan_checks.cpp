@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <numbers>
 #include <string>
 
@@ -103,6 +105,40 @@ bool same_bits(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
     return a.matrix() == b.matrix();
 }
 
+/// The counts of a reply's rejections, each to be asked for once.
+class Fallen {
+public:
+    explicit Fallen(const PlanReply& reply) {
+        for (const RejectionCount& row : reply.report.rejections) {
+            EXPECT_GT(row.count, 0U) << row.reason;
+            EXPECT_TRUE(counts_.emplace(row.reason, row.count).second) << row.reason << " twice";
+        }
+    }
+    std::uint64_t by(const std::string& reason) {
+        const auto found = counts_.extract(reason);
+        return found.empty() ? 0 : found.mapped();
+    }
+    /// finger_hits_object, approach_hits_plane, ...
+    std::uint64_t by_hitting() {
+        std::uint64_t sum = 0;
+        for (auto row = counts_.begin(); row != counts_.end();) {
+            const bool hits = row->first.find("_hits_") != std::string::npos;
+            if (hits) sum += row->second;
+            row = hits ? counts_.erase(row) : std::next(row);
+        }
+        return sum;
+    }
+    /// Reasons that nobody has asked for.
+    std::string rest() const {
+        std::string names;
+        for (const auto& [reason, count] : counts_) names += reason + " ";
+        return names;
+    }
+
+private:
+    std::map<std::string, std::uint64_t> counts_;
+};
+
 }  // namespace
 
 PlanRequest request_for(TriangleMesh mesh_O) {
@@ -156,17 +192,39 @@ void expect_consistent(const PlanReply& reply, const PlanRequest& request,
 }
 
 void expect_counts_add_up(const PlanReply& reply, const PlannerConfig& config) {
-    const StageReport* order = stage_of(reply, "planner/order_axes");
-    if (order == nullptr) return;  // no source gave an axis
-    std::uint64_t axes = 0, poses = reply.grasps.size();
-    for (const RejectionCount& row : reply.report.rejections) {
-        EXPECT_GT(row.count, 0U) << row.reason;
-        (row.reason.starts_with("axis_") ? axes : poses) += row.count;
-    }
-    const StageReport* find = stage_of(reply, "planner/find_poses");
-    const std::uint64_t tried = find == nullptr ? 0 : find->in;
-    EXPECT_EQ(axes + tried, order->in);
-    EXPECT_EQ(poses, tried * config.search.approaches * config.search.insertions);
+    const auto in = [&](const char* name) {
+        const StageReport* stage = stage_of(reply, name);
+        return stage == nullptr ? 0 : stage->in;
+    };
+    const auto out = [&](const char* name) {
+        const StageReport* stage = stage_of(reply, name);
+        return stage == nullptr ? 0 : stage->out;
+    };
+    Fallen fallen(reply);
+    const std::uint64_t axes = out("grasp/grasp_candidates") + out("grasp/opposite_candidates");
+    const std::uint64_t tried = in("planner/find_poses");
+    EXPECT_EQ(axes, in("planner/order_axes") + fallen.by("axis_source_unwanted"));
+    EXPECT_EQ(in("planner/order_axes") - out("planner/order_axes"),
+              fallen.by("axis_no_contact") + fallen.by("axis_leans") + fallen.by("axis_too_wide"));
+    EXPECT_EQ(out("planner/order_axes") - tried,
+              fallen.by("axis_similar") + fallen.by("axis_surplus"));
+    const std::uint64_t reached = out("planner/find_poses");
+    EXPECT_EQ(tried * config.search.approaches * config.search.insertions - reached,
+              fallen.by("outside_approach_cones") + fallen.by("palm_line_blocked") +
+                  fallen.by("finger_line_blocked"));
+    // The hand is asked twice: at the pose before it closes, and about its whole motion.
+    const std::uint64_t closed = in("grasp/local_cloud"), held = out("grasp/force_balance");
+    const std::uint64_t graded = out("collision/manipulability");
+    EXPECT_EQ(in("collision/manipulability"), reached + held);
+    EXPECT_EQ((reached - closed) + (held - graded), fallen.by("too_wide") + fallen.by_hitting());
+    EXPECT_EQ(closed - out("grasp/local_cloud"), fallen.by("no_contact") + fallen.by("too_thin"));
+    EXPECT_EQ(out("grasp/local_cloud") - held,
+              fallen.by("contact_too_small") + fallen.by("side_not_straight") + fallen.by("slips"));
+    EXPECT_EQ(in("collision/gripper_collision"), graded);
+    const std::uint64_t clear = out("collision/gripper_collision");
+    EXPECT_EQ(graded - clear, fallen.by("clearance"));
+    EXPECT_EQ(clear - reply.grasps.size(), fallen.by("duplicate") + fallen.by("surplus"));
+    EXPECT_EQ(fallen.rest(), "");
 }
 
 PlanReply planned(const PlanRequest& request, const PlannerConfig& config) {

@@ -17,8 +17,9 @@ TriangleMesh lopsided(std::size_t faces);
 void expect_consistent(const PlanReply& reply, const PlanRequest& request,
                        const PlannerConfig& config);
 
-/// Reports when rejections and grasps do not add up to what the stages were given: every axis is
-/// tried or counted, every pose of a tried axis is returned or counted. Not for stopped plans.
+/// Reports when rejections and grasps do not add up, stage by stage, to what the stages were given:
+/// every candidate is tried or counted, every pose of a tried one is returned or counted, each
+/// once, by a reason of that stage. Not for stopped plans.
 void expect_counts_add_up(const PlanReply& reply, const PlannerConfig& config);
 
 /// Plans, and reports what is wrong by the two functions above.

@@ -103,6 +103,7 @@ void expect_same(const PlanOptions& a, const PlanOptions& b) {
     EXPECT_EQ(a.center_of_mass_O, b.center_of_mass_O);
     EXPECT_EQ(a.grip_force_N, b.grip_force_N);
     EXPECT_EQ(a.sources, b.sources);
+    EXPECT_EQ(a.want_suggestion, b.want_suggestion);
     EXPECT_EQ(a.seed, b.seed);
 }
 
@@ -223,6 +224,7 @@ PlanRequest full_request() {
                        .center_of_mass_O = Eigen::Vector3d(0.01, 0.02, 0.03),
                        .grip_force_N = 35.0,
                        .sources = kBoundary | kWholeObject,
+                       .want_suggestion = true,
                        .seed = 0xfedcba9876543210u};
     return request;
 }

@@ -37,6 +37,7 @@ TEST_F(PlanArgumentsTest, BecomeARequestInMetresAndSeconds) {
     arguments_.friction = 0.4;
     arguments_.sources = "boundary,whole_object";
     arguments_.seed = 9;
+    arguments_.suggest = true;
     arguments_.frame_id = "camera";
     const auto request = make_request(arguments_, kProfiles);
     ASSERT_TRUE(request.ok()) << request.error().detail;
@@ -49,6 +50,7 @@ TEST_F(PlanArgumentsTest, BecomeARequestInMetresAndSeconds) {
     EXPECT_EQ(request.value().options.friction, 0.4);
     EXPECT_EQ(request.value().options.sources, kBoundary | kWholeObject);
     EXPECT_EQ(request.value().options.seed, 9u);
+    EXPECT_TRUE(request.value().options.want_suggestion);
     EXPECT_EQ(request.value().frame_id, "camera");
     EXPECT_FALSE(request.value().support_plane.has_value());
 }

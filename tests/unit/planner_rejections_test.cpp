@@ -32,6 +32,8 @@ TEST(Rejections, CountsComeMostFrequentFirstTiesByName) {
     EXPECT_EQ(text_of(rejections.counts()),
               "palm_hits_object=5 slips=3 approach_hits_plane=1 no_contact=1 ");
     EXPECT_TRUE(rejections.misses().empty());
+    EXPECT_EQ(rejections.count("slips"), 3U);
+    EXPECT_EQ(rejections.count("surplus"), 0U);
 }
 
 // Margins are compared in units of their scale: 2 mm of 80 mm are nearer than 0.1 of 0.6.
@@ -77,6 +79,23 @@ TEST(Rejections, MergingAddsCountsAndKeepsTheNearest) {
     EXPECT_EQ(misses[0].X_FG.translation().x(), 3.0);
     EXPECT_EQ(misses[1].X_FG.translation().x(), 2.0);
     EXPECT_EQ(misses[2].X_FG.translation().x(), 4.0);
+}
+
+// The least margin of a reason is known although three others' misses are nearer.
+TEST(Rejections, TheLeastMarginOfEachReasonIsKept) {
+    Rejections first, second;
+    for (int i = 1; i <= 3; ++i) first.add_miss("slips", at(i), 0.01 * i, "1", 1.0);
+    first.add_miss("too_wide", at(4), 0.3, "m", 0.1);
+    first.add_miss("too_wide", at(5), 0.2, "m", 0.1);
+    second.add_miss("too_wide", at(6), 0.25, "m", 0.1);
+    second.add_miss("clearance", at(7), 0.5, "m", 0.1);
+    second.add("palm_hits_object");
+    first.merge(second);
+    EXPECT_EQ(first.least_margin("slips"), 0.01);
+    EXPECT_EQ(first.least_margin("too_wide"), 0.2);
+    EXPECT_EQ(first.least_margin("clearance"), 0.5);
+    EXPECT_EQ(first.least_margin("palm_hits_object"), std::nullopt);
+    EXPECT_EQ(first.least_margin("no_contact"), std::nullopt);
 }
 
 }  // namespace

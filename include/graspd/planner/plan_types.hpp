@@ -71,7 +71,8 @@ struct PlanOptions {
     std::optional<Eigen::Vector3d> center_of_mass_O;  ///< [m] absent: of the filled mesh
     double grip_force_N = 20.0;                       ///< [N] per finger, > 0
     std::uint8_t sources = kAllSources;               ///< bits of GraspSource
-    std::uint64_t seed = 0;                           ///< of every random draw
+    bool want_suggestion = false;  ///< say what would help, also when there are grasps
+    std::uint64_t seed = 0;        ///< of every random draw
 };
 
 /// One planning problem. O is the object as received, F the frame of the request's header.
@@ -151,7 +152,7 @@ struct PlanReport {
     std::vector<RejectionCount> rejections;
     std::vector<NearMiss> near_misses;  ///< at most three
     std::vector<Finding> findings;
-    std::string suggestion;  ///< empty when none was computed
+    std::string suggestion;  ///< empty when none was computed; forms in docs/interface.md
 };
 
 /// The planner's answer; exactly one for every request.

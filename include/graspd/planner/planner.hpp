@@ -14,7 +14,9 @@ using StopQuery = std::function<bool()>;
 /// The key under which an object's geometry is known: a hash of its points and faces as received.
 std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O);
 
-/// Plans grasps for one object: the paper from II-A to II-F.
+/// Plans grasps for one object: the paper from II-A to II-F. Without a grasp, or where the request
+/// wants a suggestion, it plans again within other limits to say what would help; the object is
+/// prepared once. When it is told to stop meanwhile, the reply is the same without a suggestion.
 ///
 /// Never throws for what an input can cause: every outcome is a status with a message. Pure apart
 /// from the stages' wall times in the report, so safe to call from any number of threads; the same

@@ -18,6 +18,7 @@
 #include "graspd/mesh/sample_surface.hpp"
 #include "graspd/mesh/triangulate_cloud.hpp"
 #include "graspd/planner/search_config.hpp"
+#include "graspd/planner/suggest_config.hpp"
 #include "graspd/regions/cluster_concavities.hpp"
 #include "graspd/regions/concavity_frame.hpp"
 #include "graspd/regions/extract_concave_areas.hpp"
@@ -49,6 +50,7 @@ struct PlannerConfig {
     ScoreGraspConfig score_grasp;
     RankGraspsConfig rank_grasps;
     SearchConfig search;
+    SuggestConfig suggest;
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
@@ -75,6 +77,7 @@ struct PlannerConfig {
         visit("score_grasp", self.score_grasp);
         visit("rank_grasps", self.rank_grasps);
         visit("search", self.search);
+        visit("suggest", self.suggest);
     }
 
     /// For vertex_concavity(); refers to this.
