@@ -26,13 +26,20 @@ public:
         stage.in += in;
         return result;
     }
+    /// Adds a stage that took its own time.
+    void add(const StageReport& report) {
+        StageReport& stage = entry(report.name);
+        stage.ms += report.ms;
+        stage.in += report.in;
+        stage.out += report.out;
+    }
     /// Adds to a stage's count of outputs.
     void out(const char* name, std::uint64_t count) { entry(name).out += count; }
 
     std::vector<StageReport> take() { return std::move(stages_); }
 
 private:
-    StageReport& entry(const char* name) {
+    StageReport& entry(const std::string& name) {
         const auto found = std::ranges::find(stages_, name, &StageReport::name);
         if (found != stages_.end()) return *found;
         stages_.push_back({name, 0.0, 0, 0});
