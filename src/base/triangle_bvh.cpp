@@ -14,7 +14,6 @@ namespace {
 constexpr float kPad = 5e-7F;
 constexpr float kSlack = 1.0F + 1e-6F;
 constexpr float kRounding = 2e-6F;  // of a triangle's products, over its longest edge's powers
-constexpr float kNever = std::numeric_limits<float>::infinity();
 
 double longest_edge(const Eigen::Vector3d& edge1, const Eigen::Vector3d& edge2) {
     return std::sqrt(
@@ -44,35 +43,41 @@ struct TriangleBvh::Ray {
     double units_per_t = 0.0;  ///< length of `direction` in the tree's units
     double skipped = 0.0;      ///< [units] from the origin to where the ray enters the bounds
     bool meets_bounds = false;
-    std::array<float, 3> start{}, along{}, inverse{};  ///< [units] from there; of unit length
-    std::array<std::size_t, 3> near_side{};            ///< of a box along each axis: 0 low, 1 high
+    std::array<Eigen::Array4f, 3> start, along, inverse;  ///< [units] from there; of unit length
+    std::array<std::size_t, 3> near_side{};  ///< of a box along each axis: 0 low, 1 high
 
     Ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const TriangleBvh& bvh)
-        : origin(from), direction(to), units_per_t(to.norm() / bvh.diagonal_m_) {
-        if (bvh.packs_.empty() || !(units_per_t > 0.0)) return;
+        : origin(from), direction(to) {
+        for (auto* each : {&start, &along, &inverse}) each->fill(Eigen::Array4f::Zero());
+        const double length_m = to.norm();
+        if (bvh.packs_.empty() || !(length_m > 0.0)) return;
+        units_per_t = length_m * bvh.units_per_m_;
         // Directions as good as zero count as a huge finite inverse: infinity times 0 is no number.
         constexpr double kLeast = 1e-30;
-        const Eigen::Vector3d unit = direction / direction.norm();
-        double enter = 0.0, leave = std::numeric_limits<double>::infinity();
-        for (int axis = 0; axis < 3; ++axis) {
-            const double inverted = std::abs(unit[axis]) > kLeast ? 1.0 / unit[axis] : 1.0 / kLeast;
-            const double low = (bvh.bounds_.min()[axis] - from[axis]) / bvh.diagonal_m_ * inverted;
-            const double high = (bvh.bounds_.max()[axis] - from[axis]) / bvh.diagonal_m_ * inverted;
-            enter = std::max(enter, std::min(low, high));
-            leave = std::min(leave, std::max(low, high));
+        const Eigen::Vector3d unit = direction * (1.0 / length_m);
+        Eigen::Vector3d inverted;
+        for (Eigen::Index axis = 0; axis < 3; ++axis) {
+            inverted[axis] = std::abs(unit[axis]) > kLeast ? 1.0 / unit[axis] : 1.0 / kLeast;
             const auto a = static_cast<std::size_t>(axis);
-            inverse[a] = static_cast<float>(inverted);
-            along[a] = static_cast<float>(unit[axis]);
-            near_side[a] = inverted < 0.0;
+            inverse[a].setConstant(static_cast<float>(inverted[axis]));
+            along[a].setConstant(static_cast<float>(unit[axis]));
+            near_side[a] = inverted[axis] < 0.0;
         }
-        meets_bounds = enter <= leave * (1.0 + 1e-12);
+        meets_bounds = bvh.bounds_.contains(from) || enter_bounds(inverted, bvh);
         if (!meets_bounds) return;
-        skipped = enter;
-        const Eigen::Vector3d entry =
-            (from - bvh.bounds_.center()) / bvh.diagonal_m_ + enter * unit;
+        const Eigen::Vector3d entry = (from - bvh.middle_) * bvh.units_per_m_ + skipped * unit;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            start[axis] = static_cast<float>(entry[static_cast<Eigen::Index>(axis)]);
+            start[axis].setConstant(static_cast<float>(entry[static_cast<Eigen::Index>(axis)]));
         }
+    }
+
+    /// From outside: skips what lies before the bounds. @return whether the ray comes into them
+    bool enter_bounds(const Eigen::Vector3d& inverted, const TriangleBvh& bvh) {
+        const Eigen::Array3d to_units = inverted.array() * bvh.units_per_m_;
+        const Eigen::Array3d low = (bvh.bounds_.min() - origin).array() * to_units;
+        const Eigen::Array3d high = (bvh.bounds_.max() - origin).array() * to_units;
+        skipped = std::max(0.0, low.min(high).maxCoeff());
+        return skipped <= low.max(high).minCoeff() * (1.0 + 1e-12);
     }
 
     /// From the start within the bounds to t = reach [units].
@@ -103,12 +108,13 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh, double tolerance_m)
     const Eigen::Vector3d pad = Eigen::Vector3d::Constant(tolerance_m);
     bounds_ = Eigen::AlignedBox3d(bounds_.min() - pad, bounds_.max() + pad);
     diagonal_m_ = bounds_.diagonal().norm();
+    units_per_m_ = 1.0 / diagonal_m_;
+    middle_ = bounds_.center();
     const float pad_units = static_cast<float>(tolerance_m / diagonal_m_) + kPad;
     margin_ = static_cast<float>(tolerance_m / diagonal_m_) + kRounding;
-    const Eigen::Vector3d middle = bounds_.center();
     std::vector<Eigen::Array4f> units(mesh.vertices.size(), Eigen::Array4f::Zero());
     for (std::size_t v = 0; v < units.size(); ++v) {
-        units[v].head<3>() = ((mesh.vertices[v] - middle) / diagonal_m_).cast<float>();
+        units[v].head<3>() = ((mesh.vertices[v] - middle_) * units_per_m_).cast<float>();
     }
     std::vector<Box4f> boxes;
     boxes.reserve(mesh.faces.size());
@@ -145,21 +151,24 @@ void TriangleBvh::add_pack(std::uint32_t& leaf) {
     pack.count = BoxTree::leaf_count(leaf);
     if (pack.count == 0) return;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        pack.origin[axis] = pack.edge1[axis] = pack.edge2[axis] = Eigen::Array4f::Zero();
+        pack.origin[axis] = pack.edge1[axis] = pack.edge2[axis] = pack.normal[axis] =
+            Eigen::Array4f::Zero();
     }
     pack.longest = Eigen::Array4f::Constant(-1.0F);
     for (std::uint32_t k = 0; k < pack.count; ++k) {
         const Triangle& t = faces_[pack.first + k];
         const Eigen::Vector3d& corner = vertices_[t[0]];
-        const Eigen::Vector3d origin = (corner - bounds_.center()) / diagonal_m_;
-        const Eigen::Vector3d edge1 = (vertices_[t[1]] - corner) / diagonal_m_;
-        const Eigen::Vector3d edge2 = (vertices_[t[2]] - corner) / diagonal_m_;
+        const Eigen::Vector3d origin = (corner - middle_) * units_per_m_;
+        const Eigen::Vector3d edge1 = (vertices_[t[1]] - corner) * units_per_m_;
+        const Eigen::Vector3d edge2 = (vertices_[t[2]] - corner) * units_per_m_;
+        const Eigen::Vector3d normal = edge2.cross(edge1);
         const auto lane = static_cast<Eigen::Index>(k);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<Eigen::Index>(axis);
             pack.origin[axis][lane] = static_cast<float>(origin[a]);
             pack.edge1[axis][lane] = static_cast<float>(edge1[a]);
             pack.edge2[axis][lane] = static_cast<float>(edge2[a]);
+            pack.normal[axis][lane] = static_cast<float>(normal[a]);
         }
         pack.longest[lane] = static_cast<float>(longest_edge(edge1, edge2));
     }
@@ -167,28 +176,28 @@ void TriangleBvh::add_pack(std::uint32_t& leaf) {
     packs_.push_back(pack);
 }
 
-/// Moller-Trumbore four times over, without the division. Each product's rounding is below a small
-/// multiple of 6e-8 times its factors' lengths, and no factor but the triangle's edges exceeds 1.
-unsigned TriangleBvh::near_lanes(const Ray& ray, const Pack& pack, float reach, float margin) {
-    const auto& e1 = pack.edge1;
-    const auto& e2 = pack.edge2;
+/// Moller-Trumbore four times over, without the division, with the triangles' normals at hand. Each
+/// product's rounding is below a small multiple of 6e-8 times its factors' lengths, and no factor
+/// but the triangle's edges exceeds 1.
+inline unsigned TriangleBvh::near_lanes(const Ray& ray, const Pack& pack, float reach,
+                                        float margin) {
     const auto& d = ray.along;
-    const std::array<Eigen::Array4f, 3> s{ray.start[0] - pack.origin[0],
-                                          ray.start[1] - pack.origin[1],
-                                          ray.start[2] - pack.origin[2]};
-    const std::array<Eigen::Array4f, 3> p{d[1] * e2[2] - d[2] * e2[1], d[2] * e2[0] - d[0] * e2[2],
-                                          d[0] * e2[1] - d[1] * e2[0]};
-    const std::array<Eigen::Array4f, 3> q{s[1] * e1[2] - s[2] * e1[1], s[2] * e1[0] - s[0] * e1[2],
-                                          s[0] * e1[1] - s[1] * e1[0]};
-    const Eigen::Array4f determinant = e1[0] * p[0] + e1[1] * p[1] + e1[2] * p[2];
+    const std::array<Eigen::Array4f, 3> s{pack.origin[0] - ray.start[0],
+                                          pack.origin[1] - ray.start[1],
+                                          pack.origin[2] - ray.start[2]};
+    const std::array<Eigen::Array4f, 3> r{s[1] * d[2] - s[2] * d[1], s[2] * d[0] - s[0] * d[2],
+                                          s[0] * d[1] - s[1] * d[0]};
+    const auto dot = [](const auto& a, const auto& b) -> Eigen::Array4f {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    };
+    const Eigen::Array4f determinant = dot(d, pack.normal);
     const Eigen::Array4f size = determinant.abs();
-    const Eigen::Array4f sign = (determinant < 0.0F).select(Eigen::Array4f::Constant(-1.0F), 1.0F);
-    const Eigen::Array4f u = (s[0] * p[0] + s[1] * p[1] + s[2] * p[2]) * sign;
-    const Eigen::Array4f v = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) * sign;
-    const Eigen::Array4f t = (e2[0] * q[0] + e2[1] * q[1] + e2[2] * q[2]) * sign;
+    const Eigen::Array4f minus_u = lanes_turned(dot(r, pack.edge2), determinant);
+    const Eigen::Array4f v = lanes_turned(dot(r, pack.edge1), determinant);
+    const Eigen::Array4f t = lanes_turned(dot(s, pack.normal), determinant);
     const Eigen::Array4f beside = margin * pack.longest;
     const Eigen::Array4f beyond = kRounding * pack.longest * pack.longest.abs();
-    return lanes_not_negative(u.min(v).min(size - u - v) + beside) &
+    return lanes_not_negative(v.min(-minus_u).min(size + minus_u - v) + beside) &
            lanes_not_negative(t.min(reach * size - t) + beyond);
 }
 
@@ -202,16 +211,16 @@ bool TriangleBvh::meets(const Ray& ray, std::uint32_t place, double reach, Hit& 
     const double determinant = edge1.dot(p);
     if (determinant == 0.0) return false;
     const double scale = 1.0 / determinant;
-    const double tolerance = tolerance_m_ / least_height(edge1, edge2);
     const Eigen::Vector3d s = ray.origin - corner;
-    const double u = s.dot(p) * scale;
-    if (!(u >= -tolerance && u <= 1.0 + tolerance)) return false;
     const Eigen::Vector3d q = s.cross(edge1);
+    const double u = s.dot(p) * scale;
     const double v = ray.direction.dot(q) * scale;
-    if (!(v >= -tolerance && u + v <= 1.0 + tolerance)) return false;
     const double t = edge2.dot(q) * scale;
     if (!(t >= 0.0 && t <= reach)) return false;
-    if (u < 0.0 || v < 0.0 || u + v > 1.0) {
+    if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0)) {
+        const double tolerance = tolerance_m_ / least_height(edge1, edge2);
+        if (!(u >= -tolerance && v >= -tolerance && u + v <= 1.0 + tolerance)) return false;
+        if (u > 1.0 + tolerance) return false;
         // A needle's barycentric tolerance alone would reach far beyond its ends.
         const Eigen::Vector3d at = u * edge1 + v * edge2;
         const double nearest = std::min({squared_distance(at, edge1), squared_distance(at, edge2),
@@ -267,11 +276,46 @@ void TriangleBvh::traverse(const Ray& ray, double& reach, Visit&& visit) const {
     }
 }
 
+/// Whether one of a pack's triangles meets the ray before t = 1, `reach` in units.
+inline bool TriangleBvh::pack_blocks(const Ray& ray, const Pack& pack, float reach) const {
+    unsigned lanes = near_lanes(ray, pack, reach, margin_);
+    while (lanes != 0) {
+        Hit hit;
+        if (meets(ray, pack.first + take_lane(lanes), 1.0, hit)) return true;
+    }
+    return false;
+}
+
+bool TriangleBvh::segment_blocked(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                  Blocker& blocker) const {
+    const Ray ray(a, b - a, *this);  // not normalised, so the segment ends at t = 1
+    if (!ray.meets_bounds) return false;
+    const float reach = ray.units_to(1.0);
+    const std::uint32_t likely = blocker.pack;
+    if (likely < packs_.size() && pack_blocks(ray, packs_[likely], reach)) return true;
+    std::array<std::uint32_t, BoxTree::kStackDepth> stack;
+    std::size_t top = 0;
+    stack[top++] = tree_.root;
+    while (top > 0) {
+        const std::uint32_t child = stack[--top];
+        if (BoxTree::is_leaf(child)) {
+            const std::uint32_t place = BoxTree::leaf_first(child);
+            if (!pack_blocks(ray, packs_[place], reach)) continue;
+            blocker.pack = place;
+            return true;
+        }
+        const BoxTree::Node& node = tree_.nodes[child];
+        Eigen::Array4f enter;
+        unsigned lanes = ray.enters(node, reach, enter);
+        assert(top + 4 <= stack.size());
+        while (lanes != 0) stack[top++] = node.child[take_lane(lanes)];
+    }
+    return false;
+}
+
 bool TriangleBvh::segment_blocked(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
-    bool blocked = false;
-    double reach = 1.0;  // the direction is not normalised, so the segment ends at t = 1
-    traverse<false>(Ray(a, b - a, *this), reach, [&](const Hit&) { return blocked = true; });
-    return blocked;
+    Blocker unknown;
+    return segment_blocked(a, b, unknown);
 }
 
 std::optional<TriangleBvh::Hit> TriangleBvh::first_hit(const Eigen::Vector3d& origin,
@@ -309,72 +353,6 @@ std::vector<TriangleBvh::Hit> TriangleBvh::all_hits(const Eigen::Vector3d& origi
     };
     hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());
     return hits;
-}
-
-/// A box of any direction in the tree's own units, grown by the distance that counts as near.
-struct TriangleBvh::Vicinity {
-    Eigen::Matrix3f axes, spread;
-    Eigen::Vector3f center, half, reach;  ///< half along its own axes, reach along the world's
-
-    Vicinity(const OrientedBox& box, double within_m, const TriangleBvh& bvh) {
-        // Rounding in single precision must not lose a face that touches.
-        const double pad = within_m / bvh.diagonal_m_ + 4.0 * static_cast<double>(kPad);
-        axes = box.pose.linear().cast<float>();
-        spread = axes.cwiseAbs();
-        center = ((box.pose.translation() - bvh.bounds_.center()) / bvh.diagonal_m_).cast<float>();
-        half = ((box.half_extent / bvh.diagonal_m_).array() + pad).matrix().cast<float>();
-        reach = (box.pose.linear().cwiseAbs() * (box.half_extent / bvh.diagonal_m_)).cast<float>();
-        reach.array() += static_cast<float>(pad);
-    }
-
-    /// Per child: how far the boxes lie apart along the axis on which they do so most; an absent
-    /// child gives no number.
-    Eigen::Array4f gaps(const BoxTree::Node& node) const {
-        std::array<Eigen::Array4f, 3> offset, size;
-        Eigen::Array4f gap = Eigen::Array4f::Constant(-kNever);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<Eigen::Index>(axis);
-            offset[axis] = 0.5F * (node.bound[axis][0] + node.bound[axis][1]) - center[a];
-            size[axis] = 0.5F * (node.bound[axis][1] - node.bound[axis][0]);
-            gap = gap.max(offset[axis].abs() - size[axis] - reach[a]);
-        }
-        for (Eigen::Index k = 0; k < 3; ++k) {
-            const Eigen::Array4f along =
-                offset[0] * axes(0, k) + offset[1] * axes(1, k) + offset[2] * axes(2, k);
-            const Eigen::Array4f wide =
-                size[0] * spread(0, k) + size[1] * spread(1, k) + size[2] * spread(2, k);
-            gap = gap.max(along.abs() - wide - half[k]);
-        }
-        return gap;
-    }
-};
-
-std::vector<std::uint32_t> TriangleBvh::faces_near(const OrientedBox& box, double within_m) const {
-    std::vector<std::uint32_t> faces;
-    if (packs_.empty()) return faces;
-    const Vicinity vicinity(box, within_m, *this);
-    std::array<std::uint32_t, BoxTree::kStackDepth> stack;
-    std::size_t top = 0;
-    stack[top++] = tree_.root;
-    while (top > 0) {
-        const std::uint32_t child = stack[--top];
-        if (BoxTree::is_leaf(child)) {
-            const Pack& pack = packs_[BoxTree::leaf_first(child)];
-            faces.insert(faces.end(), number_.begin() + pack.first,
-                         number_.begin() + pack.first + pack.count);
-            continue;
-        }
-        const BoxTree::Node& node = tree_.nodes[child];
-        const Eigen::Array4f gap = vicinity.gaps(node);
-        assert(top + 4 <= stack.size());
-        for (std::size_t k = 0; k < 4; ++k) {
-            const auto lane = static_cast<Eigen::Index>(k);
-            const bool is_there = node.bound[0][0][lane] <= node.bound[0][1][lane];
-            if (is_there && gap[lane] <= 0.0F) stack[top++] = node.child[k];
-        }
-    }
-    std::ranges::sort(faces);
-    return faces;
 }
 
 bool TriangleBvh::contains(const Eigen::Vector3d& point) const {

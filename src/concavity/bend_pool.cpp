@@ -4,11 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include "graspd/base/parallel.hpp"
+
 namespace graspd::concavity_detail {
 namespace {
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
 constexpr float kMargin = 1e-6F;  // [units] that single precision stays within
+
+/// The bends on the hull, or those off it.
+std::vector<std::uint32_t> those(std::span<const std::uint32_t> bends, const PathGround& ground,
+                                 const ConcavityField& field, bool on_hull) {
+    std::vector<std::uint32_t> some;
+    for (const std::uint32_t v : bends) {
+        if ((field.value_m[v] <= ground.offset_m) == on_hull) some.push_back(v);
+    }
+    return some;
+}
 
 }  // namespace
 
@@ -18,9 +30,16 @@ BendPool::BendPool(const PathGround& ground, const HullPlaneTree& planes,
     bends_.reserve(bends.size());
     for (const std::uint32_t bend : bends) bends_.push_back(static_cast<std::int32_t>(bend));
     quads_.resize((bends_.size() + 3) / 4);
-    for (std::size_t i = 0; i < 4 * quads_.size(); ++i) fill_lane(i, planes, field);
-    blocks_.resize((quads_.size() + kBlockQuads - 1) / kBlockQuads);
-    for (std::size_t b = 0; b < blocks_.size(); ++b) enclose_block(b);
+    constexpr std::size_t kAtATime = 1024;
+    for_blocks(4 * quads_.size(), kAtATime, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) fill_lane(i, planes, field);
+    });
+    const std::size_t blocks = (quads_.size() + kBlockQuads - 1) / kBlockQuads;
+    blocks_.resize((blocks + 3) / 4);  // four blocks and their lanes are one thread's
+    for_blocks(4 * blocks_.size(), kAtATime / kBlockQuads,
+               [&](std::size_t first, std::size_t last) {
+                   for (std::size_t b = first; b < last; ++b) enclose_block(b);
+               });
 }
 
 void BendPool::fill_lane(std::size_t i, const HullPlaneTree& planes, const ConcavityField& field) {
@@ -50,28 +69,30 @@ void BendPool::fill_lane(std::size_t i, const HullPlaneTree& planes, const Conca
 }
 
 void BendPool::enclose_block(std::size_t b) {
-    Block& block = blocks_[b];
+    Blocks& blocks = blocks_[b / 4];
+    const auto lane = static_cast<Eigen::Index>(b % 4);
     const std::size_t first = 4 * b * kBlockQuads;
     const std::size_t last = std::min(bends_.size(), first + 4 * kBlockQuads);
     const auto at = [&](std::size_t i, std::size_t axis) {
         return quads_[i / 4].at[axis][static_cast<Eigen::Index>(i % 4)];
     };
+    std::array<float, 3> center{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         float low = kNever, high = -kNever;
         for (std::size_t i = first; i < last; ++i) {
             low = std::min(low, at(i, axis));
             high = std::max(high, at(i, axis));
         }
-        block.center[axis] = 0.5F * (low + high);
+        if (first < last) center[axis] = 0.5F * (low + high);
+        blocks.center[axis][lane] = center[axis];
     }
-    block.least_value = kNever;
+    float radius = 0.0F, least_value = kNever;
     for (std::size_t i = first; i < last; ++i) {
-        const float x = at(i, 0) - block.center[0], y = at(i, 1) - block.center[1],
-                    z = at(i, 2) - block.center[2];
-        block.radius = std::max(block.radius, std::sqrt(x * x + y * y + z * z) + kMargin);
-        block.least_value =
-            std::min(block.least_value, quads_[i / 4].value[static_cast<Eigen::Index>(i % 4)]);
+        const float x = at(i, 0) - center[0], y = at(i, 1) - center[1], z = at(i, 2) - center[2];
+        radius = std::max(radius, std::sqrt(x * x + y * y + z * z) + kMargin);
+        least_value = std::min(least_value, quads_[i / 4].value[static_cast<Eigen::Index>(i % 4)]);
     }
+    blocks.least[lane] = least_value - radius;
 }
 
 BendPool::Viewpoint BendPool::viewpoint(std::uint32_t v, double limit_m) const {
@@ -83,15 +104,27 @@ BendPool::Viewpoint BendPool::viewpoint(std::uint32_t v, double limit_m) const {
         from.normal[axis] = static_cast<float>(ground_.normals[v][a]);
     }
     from.below = ground_.spread[v] + static_cast<float>(kSlack);
-    from.limit = static_cast<float>(limit_m / ground_.diagonal_m) + kMargin;
+    from.limit = to_units(limit_m);
     return from;
 }
 
-bool BendPool::is_too_far(const Viewpoint& from, const Block& block) {
-    const float x = from.at[0] - block.center[0], y = from.at[1] - block.center[1],
-                z = from.at[2] - block.center[2];
-    const float left = from.limit - block.least_value + block.radius;
-    return !(left > 0.0F) || x * x + y * y + z * z > left * left;
+float BendPool::to_units(double limit_m) const {
+    return static_cast<float>(limit_m / ground_.diagonal_m) + kMargin;
+}
+
+/// Per block a length [units] that no way over one of its bends falls short of. @return the least
+float BendPool::least_lengths(const Viewpoint& from, std::vector<float>& bounds) const {
+    bounds.resize(4 * blocks_.size());
+    Eigen::Array4f least = Eigen::Array4f::Constant(kNever);
+    for (std::size_t q = 0; q < blocks_.size(); ++q) {
+        const Blocks& blocks = blocks_[q];
+        const Eigen::Array4f x = blocks.center[0] - from.at[0], y = blocks.center[1] - from.at[1],
+                             z = blocks.center[2] - from.at[2];
+        const Eigen::Array4f bound = (x * x + y * y + z * z).sqrt() + blocks.least;
+        Eigen::Map<Eigen::Array4f>(bounds.data() + 4 * q) = bound;
+        least = least.min(bound);
+    }
+    return least.minCoeff();
 }
 
 unsigned BendPool::promising(const Viewpoint& from, const Quad& quad) {
@@ -108,5 +141,10 @@ unsigned BendPool::promising(const Viewpoint& from, const Quad& quad) {
     const Eigen::Array4f presses = along - quad.onward * length;
     return lanes & lanes_not_negative(on_outline.min(presses));
 }
+
+BendPools::BendPools(const PathGround& ground, const HullPlaneTree& planes,
+                     const ConcavityField& field, std::span<const std::uint32_t> bends)
+    : outer(ground, planes, field, those(bends, ground, field, true)),
+      inner(ground, planes, field, those(bends, ground, field, false)) {}
 
 }  // namespace graspd::concavity_detail

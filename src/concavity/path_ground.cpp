@@ -20,6 +20,18 @@ std::vector<std::uint32_t> near_order(const TriangleMesh& mesh, double diagonal_
     return order;
 }
 
+/// Of a thousand edges, evenly spread [m].
+double mean_edge(const TriangleMesh& mesh) {
+    const std::size_t step = 1 + mesh.faces.size() / 1024;
+    double sum_m = 0.0, count = 0.0;
+    for (std::size_t f = 0; f < mesh.faces.size(); f += step) {
+        const Triangle& face = mesh.faces[f];
+        sum_m += (mesh.vertices[face[1]] - mesh.vertices[face[0]]).norm();
+        count += 1.0;
+    }
+    return sum_m / count;
+}
+
 /// Per vertex the sine of the widest angle between its normal and one of its faces'; 1 from a right
 /// angle on.
 std::vector<float> spread_of_fans(const TriangleMesh& mesh,
@@ -62,6 +74,7 @@ PathGround::PathGround(const TriangleMesh& of, const ConcavityConfig& config)
     : mesh(of),
       diagonal_m(mesh_diagonal_m(of)),
       offset_m(config.start_offset * diagonal_m),
+      mean_edge_m(mean_edge(of)),
       neighbours(of),
       normals(angle_weighted_normals(of)),
       spread(spread_of_fans(of, normals)),

@@ -15,6 +15,7 @@ struct PathGround {
 
     const TriangleMesh& mesh;
     double diagonal_m, offset_m;  ///< [m] the lift is offset_m
+    double mean_edge_m;           ///< [m] of the mesh's edges
     VertexNeighbours neighbours;
     std::vector<Eigen::Vector3d> normals;
     std::vector<Eigen::Vector3d> lifted;  ///< [m] vertices off the surface: where rays start

@@ -1,6 +1,7 @@
 #include "path_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -12,7 +13,8 @@ namespace graspd::concavity_detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kMaxPull = 64;  // bends of one string; a longer one is pulled by later relaxations
+constexpr double kBand = 2.0;  // mean edges: width of the values that are relaxed side by side
+constexpr int kMaxPull = 64;   // bends of one string; a longer one is pulled by later relaxations
 
 // Where no mesh edge leads on, rays look around: from so many vertices of every region without a
 // way out, in so many directions, and so many rays in all.
@@ -43,6 +45,9 @@ PathSearch::PathSearch(const PathGround& ground, const HullPlaneTree& planes,
     field_.parent.assign(count, ConcavityField::kNoParent);
     failed_.assign(count * config.failed_memory, ConcavityField::kNoParent);
     relaxations_.assign(count, 0);
+    blockers_.resize(count);
+    band_.first.assign(count, Band::kEnd);
+    band_.last.assign(count, Band::kEnd);
     for (std::uint32_t v = 0; v < count; ++v) {
         if (!ground.neighbours.of(v).empty()) continue;
         field_.flag[v] = ConcavityFlag::kUnreferenced;
@@ -54,15 +59,23 @@ PathSearch::PathSearch(const PathGround& ground, const HullPlaneTree& planes,
 /// is free it is the answer.
 void PathSearch::prove_direct() {
     for_blocks(ground_.order.size(), kVerticesAtATime, [&](std::size_t first, std::size_t last) {
-        std::uint32_t hint = 0;
-        for (std::size_t i = first; i < last; ++i) {
-            const std::uint32_t v = ground_.order[i];
+        std::array<Eigen::Vector3d, kVerticesAtATime> points;
+        std::array<HullPlaneTree::Nearest, kVerticesAtATime> nearest;
+        const std::size_t count = last - first;
+        for (std::size_t i = 0; i < count; ++i) {
+            points[i] = ground_.mesh.vertices[ground_.order[first + i]];
+        }
+        planes_.nearest({points.data(), count}, {nearest.data(), count});
+        TriangleBvh::Blocker blocker;  // the last vertex's, often near
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint32_t v = ground_.order[first + i];
             if (!unreached(v)) continue;
-            const auto nearest = planes_.nearest(ground_.mesh.vertices[v], hint);
-            hint = nearest.facet;
-            const auto parent = -1 - static_cast<std::int32_t>(nearest.facet);
-            if (!sees(v, parent)) continue;
-            field_.value_m[v] = nearest.distance_m;
+            const auto parent = -1 - static_cast<std::int32_t>(nearest[i].facet);
+            blockers_[v] = blocker;
+            const bool is_free = sees(v, parent);
+            blocker = blockers_[v];
+            if (!is_free) continue;
+            field_.value_m[v] = nearest[i].distance_m;
             field_.parent[v] = parent;
             field_.flag[v] = ConcavityFlag::kExact;
         }
@@ -77,13 +90,13 @@ double PathSearch::length_through(std::uint32_t v, std::int32_t parent) const {
     return std::max(0.0, facet.offset_m - facet.normal.dot(vertices[v]));
 }
 
-bool PathSearch::sees(std::uint32_t v, std::int32_t parent) const {
+bool PathSearch::sees(std::uint32_t v, std::int32_t parent) {
     const Eigen::Vector3d& from = ground_.lifted[v];
-    if (parent >= 0) return !bvh_.segment_blocked(from, ground_.lifted[parent]);
+    if (parent >= 0) return !bvh_.segment_blocked(from, ground_.lifted[parent], blockers_[v]);
     const HullFacet& facet = planes_.facet(static_cast<std::uint32_t>(-1 - parent));
     const double depth_m = facet.offset_m - facet.normal.dot(ground_.mesh.vertices[v]);
     if (depth_m <= ground_.offset_m / kOffsetOverRayTolerance) return true;  // v is on the hull
-    return !bvh_.segment_blocked(from, beyond_plane(facet, from, ground_.offset_m));
+    return !bvh_.segment_blocked(from, beyond_plane(facet, from, ground_.offset_m), blockers_[v]);
 }
 
 /// Takes a parent into `way` when that is shorter and free.
@@ -152,19 +165,57 @@ void PathSearch::propagate_inwards() {
     propagate();
 }
 
-/// Values may sink again after a vertex has left the queue, so an improved vertex is queued anew;
-/// the count of relaxations bounds the work.
+/// A band of values at a time: the vertices next to it look at all of it side by side. Values may
+/// sink again after a vertex has left the queue, so an improved vertex is queued anew; the count of
+/// relaxations bounds the work.
 void PathSearch::propagate() {
     while (!queue_.empty()) {
+        take_band(queue_.top().value_m + kBand * ground_.mean_edge_m);
+        relax_band();
+    }
+}
+
+/// Takes what is queued up to a value and notes which vertices it may help.
+void PathSearch::take_band(double most_m) {
+    band_.targets.clear();
+    band_.links.clear();
+    while (!queue_.empty() && queue_.top().value_m <= most_m) {
         const QueueItem item = queue_.top();
         queue_.pop();
         if (item.value_m > field_.value_m[item.vertex]) continue;
         for (const std::uint32_t to : ground_.neighbours.of(item.vertex)) {
             if (field_.flag[to] == ConcavityFlag::kExact) continue;
             if (++relaxations_[to] > config_.max_relaxations_per_vertex) continue;
-            Way way = known(to);
-            if (consider_over(to, item.vertex, way)) accept(to, way);
+            const auto link = static_cast<std::uint32_t>(band_.links.size());
+            band_.links.push_back({item.vertex, Band::kEnd});
+            if (band_.first[to] == Band::kEnd) {
+                band_.first[to] = link;
+                band_.targets.push_back(to);
+            } else {
+                band_.links[band_.last[to]].next = link;
+            }
+            band_.last[to] = link;
         }
+    }
+}
+
+void PathSearch::relax_band() {
+    band_.ways.resize(band_.targets.size());
+    const auto relax = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t to = band_.targets[i];
+            Way way = known(to);
+            for (auto link = band_.first[to]; link != Band::kEnd; link = band_.links[link].next) {
+                consider_over(to, band_.links[link].from, way);
+            }
+            band_.ways[i] = way;
+        }
+    };
+    constexpr std::size_t kAtATime = 32;
+    for_blocks(band_.targets.size(), kAtATime, relax);
+    for (std::size_t i = 0; i < band_.targets.size(); ++i) {
+        accept(band_.targets[i], band_.ways[i]);
+        band_.first[band_.targets[i]] = Band::kEnd;
     }
 }
 
@@ -230,7 +281,7 @@ void PathSearch::reach_what_no_edge_reaches() {
 /// Step 5: bends slide along mesh edges.
 void PathSearch::slide_bends() {
     const std::vector<std::uint32_t> bent = bent_vertices();
-    const BendSlider slider(ground_, planes_, bvh_, field_);
+    BendSlider slider(ground_, planes_, bvh_, field_, blockers_);
     std::vector<SlidWay> ways(bent.size());
     for_blocks(bent.size(), kVerticesAtATime, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {

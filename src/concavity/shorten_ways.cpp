@@ -19,6 +19,7 @@ constexpr std::size_t kBendLookouts = 128;    // of these, which look around in 
 constexpr std::size_t kMostTries = 64;        // bends that one of these tries,
 constexpr std::size_t kTries = 12;            // that any other vertex tries, and planes,
 constexpr std::size_t kOuterTries = 4;        // and bends on the hull
+constexpr std::size_t kSearched = 16384;      // vertices searched first, about
 constexpr std::size_t kHiding = 2;            // of the bends found hidden: what hides them is tried
 constexpr std::size_t kBendBudget = 8000000;  // pairs of a vertex and a possible bend
 constexpr std::size_t kPlaneBudget = 6000000;  // pairs of a vertex and a plane
@@ -88,6 +89,8 @@ public:
         for (; place > 0 && entry < best_[place - 1]; --place) best_[place] = best_[place - 1];
         best_[place] = entry;
     }
+    /// [m] what is not shorter comes too late.
+    double limit_m() const { return count_ == tries_ ? best_[count_ - 1].first : limit_m_; }
     std::span<const Entry> entries() const { return {best_.data(), count_}; }
 
 private:
@@ -120,15 +123,19 @@ void PathSearch::consider_hiding(std::uint32_t v, std::int32_t bend, Way& way) {
     }
 }
 
-/// Tries the bends of a pool, of those that promise a gain the shortest first. Vertices on the hull
-/// come apart: where they are near, behind a wall, they would crowd out all others.
-void PathSearch::consider_pool(std::uint32_t v, const BendPool& pool, std::size_t tries, Way& way) {
+/// Tries the bends of the pools, of those that promise a gain the shortest first.
+void PathSearch::consider_pool(std::uint32_t v, const BendPools& pools, std::size_t tries,
+                               Way& way) {
     const double limit_m = way.value_m * (1.0 - kLeastGain);
     Shortlist inner(*this, v, limit_m, tries), outer(*this, v, limit_m, kOuterTries);
-    pool.visit_promising(v, limit_m, [&](std::int32_t bend) {
-        const bool on_hull = field_.value_m[static_cast<std::size_t>(bend)] <= ground_.offset_m;
-        (on_hull ? outer : inner).note(bend);
-    });
+    const auto fill = [&](const BendPool& pool, Shortlist& list) {
+        pool.visit_promising(v, limit_m, [&](std::int32_t bend) {
+            list.note(bend);
+            return list.limit_m();
+        });
+    };
+    fill(pools.outer, outer);
+    fill(pools.inner, inner);
     if (consider_listed(v, outer, way) || consider_listed(v, inner, way)) return;
     const std::size_t hidden = std::min(kHiding, inner.entries().size());
     for (const auto& [length_m, bend] : inner.entries().first(hidden)) {
@@ -143,32 +150,39 @@ void PathSearch::consider_planes(std::uint32_t v, Way& way) {
     const double limit_m = way.value_m * (1.0 - kLeastGain);
     planes_.facets_ahead(ground_.mesh.vertices[v], limit_m, ground_.normals[v],
                          double{ground_.spread[v]} + BendPool::kSlack,
-                         kBesideFacet * ground_.diagonal_m, facets);
+                         kBesideFacet * ground_.diagonal_m, kTries, facets);
     Shortlist list(*this, v, limit_m, kTries);
     for (const std::uint32_t facet : facets) list.note(-1 - static_cast<std::int32_t>(facet));
     consider_listed(v, list, way);
 }
 
 /// Searches a better way for each vertex on its own, then takes what was found and spreads it.
-void PathSearch::improve(
+/// @return per vertex whether its way has become shorter by what is worth looking around for
+std::vector<char> PathSearch::improve(
     const std::vector<std::uint32_t>& vertices,
     const std::function<void(std::uint32_t v, std::size_t place, Way& way)>& search) {
     std::vector<Way> ways(vertices.size());
-    for_blocks(vertices.size(), kVerticesAtATime, [&](std::size_t first, std::size_t last) {
+    constexpr std::size_t kAtATime = 16;
+    for_blocks(vertices.size(), kAtATime, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             ways[i] = known(vertices[i]);
             search(vertices[i], i, ways[i]);
         }
     });
-    for (std::size_t i = 0; i < vertices.size(); ++i) accept(vertices[i], ways[i]);
+    std::vector<char> gained(vertices.size(), 0);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        gained[i] = ways[i].value_m < field_.value_m[vertices[i]] * (1.0 - kLeastGain);
+        accept(vertices[i], ways[i]);
+    }
     propagate();
+    return gained;
 }
 
 /// Shortens the ways of the bends that most ways use.
 void PathSearch::shorten_bends(bool with_lookouts) {
     std::vector<std::uint32_t> bends = most_used_bends();
     std::erase_if(bends, [&](std::uint32_t v) { return field_.flag[v] != ConcavityFlag::kPath; });
-    const BendPool all(ground_, planes_, field_, possible_bends());
+    const BendPools all(ground_, planes_, field_, possible_bends());
     const std::size_t stride = 1 + bends.size() / kBendLookouts;
     improve(bends, [&](std::uint32_t v, std::size_t place, Way& way) {
         consider_planes(v, way);
@@ -177,25 +191,37 @@ void PathSearch::shorten_bends(bool with_lookouts) {
     });
 }
 
-/// Shortens every way that is not proven, by what the mesh neighbours' ways go through and by the
-/// most used bends; as many as the budgets allow, evenly spread, by all vertices and all planes.
+/// Shortens ways that are not proven, by what the mesh neighbours' ways go through and by all
+/// vertices and all planes, as many as the budgets allow: first of vertices evenly spread, then of
+/// those around which a shorter way was found.
 void PathSearch::shorten_all(const std::vector<std::uint32_t>& bent) {
-    const BendPool used(ground_, planes_, field_, most_used_bends());
-    const BendPool all(ground_, planes_, field_, possible_bends());
-    const std::size_t bend_stride = 1 + bent.size() * all.size() / kBendBudget;
-    const std::size_t plane_stride = 1 + bent.size() * planes_.size() / kPlaneBudget;
-    improve(bent, [&](std::uint32_t v, std::size_t place, Way& way) {
-        for (const std::uint32_t u : ground_.neighbours.of(v)) {
-            if (finished(u) && consider(v, field_.parent[u], way)) straighten(v, way);
-        }
-        if (place % plane_stride == 0) consider_planes(v, way);
-        consider_pool(v, place % bend_stride == 0 ? all : used, kTries, way);
-    });
+    const BendPools used(ground_, planes_, field_, most_used_bends());
+    const BendPools all(ground_, planes_, field_, possible_bends());
+    const auto shorten = [&](const std::vector<std::uint32_t>& some) {
+        const std::size_t bend_stride = 1 + some.size() * all.size() / kBendBudget;
+        const std::size_t plane_stride = 1 + some.size() * planes_.size() / kPlaneBudget;
+        return improve(some, [&](std::uint32_t v, std::size_t place, Way& way) {
+            for (const std::uint32_t u : ground_.neighbours.of(v)) {
+                if (finished(u) && consider(v, field_.parent[u], way)) straighten(v, way);
+            }
+            if (place % plane_stride == 0) consider_planes(v, way);
+            consider_pool(v, place % bend_stride == 0 ? all : used, kTries, way);
+        });
+    };
+    const std::size_t stride = 1 + bent.size() / kSearched;
+    std::vector<std::uint32_t> sample, around;
+    for (std::size_t i = 0; i < bent.size(); i += stride) sample.push_back(bent[i]);
+    const std::vector<char> gained = shorten(sample);
+    for (std::size_t i = 0; i < bent.size(); ++i) {
+        const std::size_t before = i / stride, after = std::min(before + 1, sample.size() - 1);
+        if (i % stride != 0 && (gained[before] || gained[after])) around.push_back(bent[i]);
+    }
+    if (!around.empty()) shorten(around);
 }
 
 /// Step 4: the next bend may lie across the void, where no mesh edge leads. First the bends' own
-/// ways, which many share, then every vertex', then the bends' once more, as some lead over
-/// vertices whose ways have just become shorter.
+/// ways, which many share, then those of other vertices, then the bends' once more, as some lead
+/// over vertices whose ways have just become shorter.
 void PathSearch::shorten_across_the_void() {
     const std::vector<std::uint32_t> bent = bent_vertices();
     if (bent.empty()) return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "graspd/base/triangle_bvh.hpp"
 
@@ -74,12 +75,14 @@ Eigen::Vector3d BendSlider::Chain::after(std::size_t i) const {
 }
 
 BendSlider::BendSlider(const PathGround& ground, const HullPlaneTree& planes,
-                       const TriangleBvh& bvh, const ConcavityField& field)
-    : ground_(ground), planes_(planes), bvh_(bvh), field_(field) {}
+                       const TriangleBvh& bvh, const ConcavityField& field,
+                       std::vector<TriangleBvh::Blocker>& blockers)
+    : ground_(ground), planes_(planes), bvh_(bvh), field_(field), blockers_(blockers) {}
 
 BendSlider::Chain BendSlider::chain_of(std::uint32_t vertex) const {
     const std::vector<Eigen::Vector3d>& vertices = ground_.mesh.vertices;
     Chain chain;
+    chain.vertex = vertex;
     chain.start = vertices[vertex];
     chain.parent = field_.parent[vertex];
     while (chain.parent >= 0 && chain.bends.size() < kMostBends) {
@@ -146,14 +149,21 @@ double BendSlider::choose_edges(Chain& chain) const {
         const Eigen::Vector3d after = chain.after(i);
         const Eigen::Vector3d pull = before.stableNormalized() + after.stableNormalized();
         constexpr double kTaut = 1e-7;  // sine of the angle that counts as none
-        double best = kTaut;
         const auto neighbours = ground_.neighbours.of(bend.from);
+        thread_local std::vector<std::pair<double, std::size_t>> gains;  // with the edges' places
+        gains.clear();
         for (std::size_t place = 0; place < neighbours.size(); ++place) {
-            const Eigen::Vector3d& there = ground_.mesh.vertices[neighbours[place]];
-            const double gain = pull.dot((there - bend.point).stableNormalized());
-            if (gain <= best || !holds(bend.from, place, before, after)) continue;
-            best = gain;
+            const Eigen::Vector3d edge = ground_.mesh.vertices[neighbours[place]] - bend.point;
+            const double gain = pull.dot(edge) / edge.norm();
+            if (gain > kTaut) gains.emplace_back(-gain, place);
+        }
+        std::ranges::sort(gains);
+        double best = 0.0;
+        for (const auto& [less, place] : gains) {
+            if (!holds(bend.from, place, before, after)) continue;
+            best = -less;
             bend.to = neighbours[place];
+            break;
         }
         if (bend.to != bend.from) {
             gain_m += best * (ground_.mesh.vertices[bend.to] - bend.point).norm();
@@ -218,11 +228,12 @@ Eigen::Vector3d BendSlider::lifted_before(std::uint32_t vertex, const Chain& cha
 
 /// Whether the segment from a lifted point to bend i, or to what follows the last one, is free.
 bool BendSlider::sees(const Eigen::Vector3d& from, const Chain& chain, std::size_t i) const {
-    if (i < chain.bends.size()) return !bvh_.segment_blocked(from, lifted(chain.bends[i]));
-    if (chain.facet == nullptr) {
-        return !bvh_.segment_blocked(from, ground_.lifted[static_cast<std::size_t>(chain.parent)]);
-    }
-    return !bvh_.segment_blocked(from, beyond_plane(*chain.facet, from, ground_.offset_m));
+    const auto target = [&]() -> Eigen::Vector3d {
+        if (i < chain.bends.size()) return lifted(chain.bends[i]);
+        if (chain.facet != nullptr) return beyond_plane(*chain.facet, from, ground_.offset_m);
+        return ground_.lifted[static_cast<std::size_t>(chain.parent)];
+    };
+    return !bvh_.segment_blocked(from, target(), blockers_[chain.vertex]);
 }
 
 /// The first segment that meets the surface: i ends at bend i; kNone where all are free.
@@ -346,7 +357,8 @@ SlidWay BendSlider::tilt(std::uint32_t vertex) const {
     };
     const auto is_clear = [&](double tangent) {
         const double length_m = depth_m * std::sqrt(1.0 + tangent * tangent) + ground_.offset_m;
-        return !bvh_.segment_blocked(start, start + length_m * direction(tangent));
+        return !bvh_.segment_blocked(start, start + length_m * direction(tangent),
+                                     blockers_[vertex]);
     };
     double clear = std::sqrt(most_m * most_m / (depth_m * depth_m) - 1.0), blocked = 0.0;
     if (!is_clear(clear)) return way;

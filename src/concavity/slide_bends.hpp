@@ -21,8 +21,9 @@ struct SlidWay {
 class BendSlider {
 public:
     /// @param field  ways over vertices, without edge bends
+    /// @param blockers  per vertex, of rays from there; a vertex's is its thread's alone
     BendSlider(const PathGround& ground, const HullPlaneTree& planes, const TriangleBvh& bvh,
-               const ConcavityField& field);
+               const ConcavityField& field, std::vector<TriangleBvh::Blocker>& blockers);
 
     /// A free way from the vertex that is shorter than the field's.
     SlidWay slide(std::uint32_t vertex) const;
@@ -42,6 +43,7 @@ private:
     /// Vertex, bends and what they end on, a vertex with a value or a facet's plane.
     struct Chain {
         Eigen::Vector3d start, end;
+        std::uint32_t vertex = 0;
         std::vector<Bend> bends;
         const HullFacet* facet = nullptr;
         std::int32_t parent = 0;
@@ -71,6 +73,7 @@ private:
     const HullPlaneTree& planes_;
     const TriangleBvh& bvh_;
     const ConcavityField& field_;
+    std::vector<TriangleBvh::Blocker>& blockers_;
 };
 
 /// Writes a slid way into the field.

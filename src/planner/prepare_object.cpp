@@ -1,5 +1,7 @@
 #include "prepare_object.hpp"
 
+#include <string_view>
+
 #include "graspd/mesh/principal_frame.hpp"
 
 namespace graspd::planner_detail {
@@ -17,6 +19,50 @@ Result<TriangleMesh> surface_of(const std::variant<TriangleMesh, PointCloud>& ob
     log.out("mesh/triangulate_cloud", surface.value().mesh.faces.size());
     findings = std::move(surface.value().findings);
     return std::move(surface.value().mesh);
+}
+
+/// Hull, tree and concavity side by side where they can be, so that their times overlap.
+std::optional<PlanError> measure_by_any_angle(PreparedObject& object, const PlannerConfig& config,
+                                              StageLog& log) {
+    auto measured = measure_concavity(object.mesh_P, config.shortest_path_concavity);
+    if (!measured) return measured.error();
+    double hull_ms = 0.0, tree_ms = 0.0, field_ms = 0.0;
+    for (const StepTime& time : measured.value().times) {
+        const std::string_view step = time.step;
+        (step == "hull" ? hull_ms : step == "tree" ? tree_ms : field_ms) += time.ms;
+    }
+    object.hull_P = std::move(measured.value().hull);
+    object.tree_P = std::move(measured.value().tree);
+    object.field = std::move(measured.value().field);
+    const std::size_t vertices = object.mesh_P.vertices.size();
+    log.add({"concavity/outer_hull", hull_ms, vertices, object.hull_P.facets.size()});
+    log.add({"base/triangle_bvh", tree_ms, object.mesh_P.faces.size(), 1});
+    log.add({"concavity/shortest_path_concavity", field_ms, vertices, vertices});
+    return std::nullopt;
+}
+
+std::optional<PlanError> measure_by_tetrahedra(PreparedObject& object, const PlannerConfig& config,
+                                               StageLog& log) {
+    auto hull = log.run("concavity/outer_hull", object.mesh_P.vertices.size(),
+                        [&] { return outer_hull(object.mesh_P.vertices); });
+    if (!hull) return hull.error();
+    object.hull_P = std::move(hull).value();
+    log.out("concavity/outer_hull", object.hull_P.facets.size());
+
+    object.tree_P = log.run("base/triangle_bvh", object.mesh_P.faces.size(), [&] {
+        return std::make_shared<const TriangleBvh>(
+            object.mesh_P, ray_tolerance_m(object.mesh_P, config.shortest_path_concavity));
+    });
+    log.out("base/triangle_bvh", 1);
+    constexpr const char* kStage = "concavity/tetrahedral_concavity";
+    auto field = log.run(kStage, object.mesh_P.vertices.size(), [&] {
+        return tetrahedral_concavity(object.mesh_P, object.hull_P, *object.tree_P,
+                                     config.tetrahedral_concavity);
+    });
+    if (!field) return field.error();
+    object.field = std::move(field).value();
+    log.out(kStage, object.field.value_m.size());
+    return std::nullopt;
 }
 
 }  // namespace
@@ -43,26 +89,12 @@ Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointClou
     object.mesh_P = transformed(object.X_OP.inverse(), solid.mesh);
     object.center_of_mass_P = object.X_OP.inverse() * solid.center_of_mass;
 
-    auto hull = log.run("concavity/outer_hull", object.mesh_P.vertices.size(),
-                        [&] { return outer_hull(object.mesh_P.vertices); });
-    if (!hull) return hull.error();
-    object.hull_P = std::move(hull).value();
-    log.out("concavity/outer_hull", object.hull_P.facets.size());
-
-    object.tree_P = log.run("base/triangle_bvh", object.mesh_P.faces.size(), [&] {
-        return std::make_shared<const TriangleBvh>(
-            object.mesh_P, ray_tolerance_m(object.mesh_P, config.shortest_path_concavity));
-    });
-    log.out("base/triangle_bvh", 1);
-    const char* stage = config.vertex_concavity.method == "tetrahedral"
-                            ? "concavity/tetrahedral_concavity"
-                            : "concavity/shortest_path_concavity";
-    auto field = log.run(stage, object.mesh_P.vertices.size(), [&] {
-        return vertex_concavity(object.mesh_P, object.hull_P, *object.tree_P, config.concavity());
-    });
-    if (!field) return field.error();
-    object.field = std::move(field).value();
-    log.out(stage, object.field.value_m.size());
+    const auto method = concavity_method(config.vertex_concavity);
+    if (!method) return method.error();
+    const auto bad = method.value() == ConcavityMethod::kAnyAngle
+                         ? measure_by_any_angle(object, config, log)
+                         : measure_by_tetrahedra(object, config, log);
+    if (bad) return *bad;
     return object;
 }
 

@@ -31,18 +31,20 @@ public:
         entry(name).in += in;
         entry(name).out += out;
     }
+    /// Adds a stage that took its own time.
+    void add(const StageReport& report) {
+        StageReport& stage = entry(report.name);
+        stage.ms += report.ms;
+        stage.in += report.in;
+        stage.out += report.out;
+    }
     /// Adds to a stage's count of outputs.
     void out(const char* name, std::uint64_t count) { entry(name).out += count; }
 
     /// Adds another log's figures: of work that ran beside other work, so that the milliseconds are
     /// those of all threads together.
     void merge(const StageLog& other) {
-        for (const StageReport& stage : other.stages_) {
-            StageReport& mine = entry(stage.name);
-            mine.ms += stage.ms;
-            mine.in += stage.in;
-            mine.out += stage.out;
-        }
+        for (const StageReport& stage : other.stages_) add(stage);
     }
 
     std::vector<StageReport> take() { return std::move(stages_); }

@@ -101,11 +101,14 @@ TEST(TriangleBvh, AgreesWithEveryTriangleOneByOne) {
         }();
         std::mt19937_64 random(11);
         int leaks = 0, borderline = 0, hits = 0;
+        TriangleBvh::Blocker blocker;
         for (int i = 0; i < 1500; ++i) {
             const Vector3d a = middle + 0.6 * size_m * random_vector(random);
             const Vector3d b = middle + 0.6 * size_m * random_vector(random);
             const auto expected = all_crossings(mesh, a, b);
             const bool blocked = bvh.segment_blocked(a, b);
+            EXPECT_EQ(bvh.segment_blocked(a, b, blocker), blocked);
+            EXPECT_EQ(bvh.segment_blocked(a, b, blocker), blocked);
             leaks += !blocked && !expected.empty();
             borderline += blocked && expected.empty();
             const double length = (b - a).norm();

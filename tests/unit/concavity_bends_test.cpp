@@ -67,11 +67,27 @@ TEST(BendPool, NamesWhatEveryConditionAllows) {
     const HullPlaneTree planes(run.hull);
     const BendPool pool(ground, planes, field, ground.order);
     EXPECT_EQ(pool.size(), mesh.vertices.size());
-    std::size_t named = 0;
+    std::size_t named = 0, looked_at = 0;
     for (std::uint32_t v = 0; v < mesh.vertices.size(); v += 37) {
         std::set<std::int32_t> visited;
-        pool.visit_promising(v, field.value_m[v], [&](std::int32_t bend) { visited.insert(bend); });
+        const auto length_m = [&](std::int32_t u) {
+            const auto bend = static_cast<std::size_t>(u);
+            return (mesh.vertices[bend] - mesh.vertices[v]).norm() + field.value_m[bend];
+        };
+        double least_m = field.value_m[v];
+        pool.visit_promising(v, field.value_m[v], [&](std::int32_t bend) {
+            visited.insert(bend);
+            least_m = std::min(least_m, length_m(bend));
+            return field.value_m[v];
+        });
         named += visited.size();
+        // A limit that falls with what is found still leads to the shortest.
+        double found_m = field.value_m[v];
+        pool.visit_promising(v, field.value_m[v], [&](std::int32_t bend) {
+            ++looked_at;
+            return found_m = std::min(found_m, length_m(bend));
+        });
+        EXPECT_EQ(found_m, least_m);
         for (std::int32_t u = 0; u < vertices; ++u) {
             const Vector3d way = mesh.vertices[static_cast<std::size_t>(u)] - mesh.vertices[v];
             if (u == static_cast<std::int32_t>(v)) continue;
@@ -96,6 +112,7 @@ TEST(BendPool, NamesWhatEveryConditionAllows) {
         }
     }
     EXPECT_GT(named, 100u);
+    EXPECT_LT(looked_at, named);
 }
 
 // Flat and hollow vertices carry no bend; a convex edge's do. A channel: only where two of its

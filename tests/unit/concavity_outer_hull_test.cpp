@@ -216,6 +216,36 @@ TEST(HullPlaneTree, AnyHintGivesTheSame) {
     }
 }
 
+// Points near one another share the search; each gets what it gets alone. Random points, where no
+// two share planes, vertices in a row, where most do, and the middle of a ball, where all planes
+// are as near.
+TEST(HullPlaneTree, ManyPointsGiveTheSameAsOneByOne) {
+    for (const TriangleMesh& mesh :
+         {test::box({0.1, 0.2, 0.3}, 12), test::sphere(0.05, 4000), test::torus(0.06, 0.02, 3000),
+          test::bowl(0.07, 0.005, 3000)}) {
+        const OuterHull hull = hull_of(mesh.vertices);
+        const HullPlaneTree tree(hull);
+        std::vector<Vector3d> points = mesh.vertices;
+        Eigen::AlignedBox3d box;
+        for (const Vector3d& vertex : mesh.vertices) box.extend(vertex);
+        const Vector3d middle = box.center();
+        std::mt19937_64 random(12);
+        for (int i = 0; i < 500; ++i) {
+            const Vector3d& vertex = mesh.vertices[random() % mesh.vertices.size()];
+            points.push_back(middle + std::abs(fraction(random)) * (vertex - middle));
+        }
+        for (int i = 0; i < 40; ++i) points.push_back(middle + Vector3d(1e-7 * i, 0, 0));
+        std::vector<HullPlaneTree::Nearest> nearest(points.size());
+        tree.nearest(points, nearest);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            EXPECT_EQ(nearest[i].distance_m, tree.nearest(points[i]).distance_m);
+            const HullFacet& facet = tree.facet(nearest[i].facet);
+            EXPECT_EQ(std::max(0.0, facet.offset_m - facet.normal.dot(points[i])),
+                      nearest[i].distance_m);
+        }
+    }
+}
+
 // The facet by which a ray leaves, against every plane one by one.
 TEST(HullPlaneTree, FindsWhereARayLeaves) {
     for (const TriangleMesh& mesh : {test::box({0.1, 0.2, 0.3}, 12), test::sphere(0.05, 4000),
@@ -248,7 +278,7 @@ TEST(HullPlaneTree, NamesTheFacetsAhead) {
     const Vector3d floor(0.0, 0.0, -0.1);
     std::vector<std::uint32_t> facets;
     const auto normals_ahead = [&](double limit_m, double below) {
-        tree.facets_ahead(floor, limit_m, Vector3d::UnitZ(), below, 1e-3, facets);
+        tree.facets_ahead(floor, limit_m, Vector3d::UnitZ(), below, 1e-3, 64, facets);
         double up = 0.0;
         for (const std::uint32_t facet : facets) up += tree.facet(facet).normal.z();
         return std::pair(facets.size(), std::round(up));
@@ -257,6 +287,36 @@ TEST(HullPlaneTree, NamesTheFacetsAhead) {
     EXPECT_EQ(normals_ahead(1.0, 1.0), std::pair(std::size_t{6}, 0.0));
     EXPECT_EQ(normals_ahead(0.15, 0.1), std::pair(std::size_t{4}, 0.0));
     EXPECT_EQ(normals_ahead(0.05, 1.0), std::pair(std::size_t{0}, 0.0));
+}
+
+// Of more facets ahead than are asked for, the nearest are among those named.
+TEST(HullPlaneTree, NamesTheNearestFacetsAhead) {
+    constexpr std::size_t kMost = 5;
+    const TriangleMesh mesh = test::bowl(0.07, 0.005, 4000);
+    const OuterHull hull = hull_of(mesh.vertices);
+    const HullPlaneTree tree(hull);
+    std::vector<std::uint32_t> all, some;
+    std::size_t of = 0;
+    for (std::size_t v = 0; v < mesh.vertices.size(); v += 11) {
+        const Vector3d& from = mesh.vertices[v];
+        const auto distance_m = [&](std::uint32_t index) {
+            return tree.facet(index).offset_m - tree.facet(index).normal.dot(from);
+        };
+        tree.facets_ahead(from, 0.1, Vector3d::UnitZ(), 0.3, 1e-3, kMost, some);
+        all.clear();
+        for (std::uint32_t f = 0; f < tree.size(); ++f) {
+            const Vector3d foot = from + distance_m(f) * tree.facet(f).normal;
+            const bool is_ahead = tree.facet(f).normal.z() > -0.299 && distance_m(f) < 0.0999 &&
+                                  tree.facet(f).box.exteriorDistance(foot) == 0.0;
+            if (is_ahead) all.push_back(f);
+        }
+        std::ranges::sort(all, {}, distance_m);
+        for (std::size_t k = 0; k < std::min(kMost, all.size()); ++k) {
+            EXPECT_THAT(some, testing::Contains(all[k]));
+        }
+        of += all.size();
+    }
+    EXPECT_GT(of, 50u);
 }
 
 }  // namespace

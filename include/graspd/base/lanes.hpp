@@ -21,6 +21,18 @@ inline unsigned lanes_not_negative(const Eigen::Array4f& lanes) {
 #endif
 }
 
+/// Each lane turned where `sign` has one: times 1 or -1.
+inline Eigen::Array4f lanes_turned(const Eigen::Array4f& lanes, const Eigen::Array4f& sign) {
+#if defined(EIGEN_VECTORIZE_SSE)
+    const __m128 bit = _mm_and_ps(_mm_loadu_ps(sign.data()), _mm_set1_ps(-0.0F));
+    Eigen::Array4f turned;
+    _mm_storeu_ps(turned.data(), _mm_xor_ps(_mm_loadu_ps(lanes.data()), bit));
+    return turned;
+#else
+    return (sign < 0.0F).select(-lanes, lanes);
+#endif
+}
+
 /// Takes the lowest lane out of a mask that is not zero.
 inline unsigned take_lane(unsigned& mask) {
     const auto lane = static_cast<unsigned>(std::countr_zero(mask));

@@ -33,8 +33,18 @@ public:
     /// @param tolerance_m [m] >= 0, e.g. 1e-6 of the diagonal
     TriangleBvh(const TriangleMesh& mesh, double tolerance_m);
 
+    /// Which triangles blocked a segment. What is asked next is often blocked by them too.
+    struct Blocker {
+        std::uint32_t pack = UINT32_MAX;  ///< none yet
+    };
+
     /// True when some triangle meets the closed segment from `a` to `b` [m].
     bool segment_blocked(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
+
+    /// The same; looks at what blocked an earlier segment first, which only saves time, and notes
+    /// what blocks this one.
+    bool segment_blocked(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                         Blocker& blocker) const;
 
     /// The nearest hit within max_distance_m along the unit direction; ties by the lower face
     /// index.
@@ -57,7 +67,7 @@ public:
 private:
     /// The up to four triangles of a leaf side by side, in the tree's units.
     struct Pack {
-        std::array<Eigen::Array4f, 3> origin, edge1, edge2;
+        std::array<Eigen::Array4f, 3> origin, edge1, edge2, normal;  ///< normal: edge2 x edge1
         Eigen::Array4f longest;  ///< edge; below zero where there is no triangle
         std::uint32_t first = 0, count = 0;
     };
@@ -66,13 +76,16 @@ private:
 
     void add_pack(std::uint32_t& leaf);
     static unsigned near_lanes(const Ray& ray, const Pack& pack, float reach, float margin);
+    bool pack_blocks(const Ray& ray, const Pack& pack, float reach) const;
     bool meets(const Ray& ray, std::uint32_t place, double reach, Hit& hit) const;
     template <bool kNearestFirst, class Visit>
     void traverse(const Ray& ray, double& reach, Visit&& visit) const;
 
     double tolerance_m_ = 0.0;
-    Eigen::AlignedBox3d bounds_;             ///< [m] of the triangles, padded by the tolerance
-    double diagonal_m_ = 0.0;                ///< [m] of bounds_
+    Eigen::AlignedBox3d bounds_;  ///< [m] of the triangles, padded by the tolerance
+    double diagonal_m_ = 0.0;     ///< [m] of bounds_
+    double units_per_m_ = 0.0;
+    Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< [m] of bounds_
     BoxTree tree_;                           ///< in units of the diagonal, from bounds_' middle
     std::vector<Eigen::Vector3d> vertices_;  ///< [m]
     std::vector<Triangle> faces_;            ///< in the order of the packs

@@ -50,14 +50,22 @@ public:
     /// @param hint  a facet that may be near, such as a neighbouring point's: it only saves time
     Nearest nearest(const Eigen::Vector3d& point, std::uint32_t hint = 0) const;
 
+    /// The same for points near one another, at a fraction of the cost.
+    /// @param nearest  one place a point
+    void nearest(std::span<const Eigen::Vector3d> points, std::span<Nearest> nearest) const;
+
     /// Every facet whose plane is nearer than a limit, whose normal leads away from the point's
     /// surface and on which the foot of the perpendicular comes to lie; and some that miss one of
-    /// these by a little. In no order that means anything.
+    /// these by a little. Where there are more than `most`, those that are not among the nearest
+    /// `most` may be left out. In no order that means anything.
     /// @param normal   of the surface at the point, of unit length
     /// @param below    [1] sine of how far below the surface's plane a way may lead
     /// @param beside_m [m] how far from the facet's box the foot may lie
+    /// @param most     1 to kMostAhead
     void facets_ahead(const Eigen::Vector3d& point, double limit_m, const Eigen::Vector3d& normal,
-                      double below, double beside_m, std::vector<std::uint32_t>& facets) const;
+                      double below, double beside_m, std::size_t most,
+                      std::vector<std::uint32_t>& facets) const;
+    static constexpr std::size_t kMostAhead = 64;
 
     /// The facet by whose plane a ray from inside leaves the hull; ties by the lower index, 0 where
     /// rounding leaves none.
@@ -78,7 +86,12 @@ private:
             return offset - normal[0] * unit[0] - normal[1] * unit[1] - normal[2] * unit[2];
         }
     };
+    struct Vicinity;  ///< planes that may be the nearest of some point in a ball
+
     void add_pack(std::uint32_t& leaf);
+    bool gather(const Eigen::Vector3d& middle, double radius_m, std::uint32_t near,
+                Vicinity& vicinity) const;
+    Nearest nearest_of(const Vicinity& vicinity, const Eigen::Vector3d& point) const;
     Eigen::Array4f to_units(const Eigen::Vector3d& point) const;
 
     Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();  ///< [m] of all facets' boxes
