@@ -311,72 +311,6 @@ std::vector<TriangleBvh::Hit> TriangleBvh::all_hits(const Eigen::Vector3d& origi
     return hits;
 }
 
-/// A box of any direction in the tree's own units, grown by the distance that counts as near.
-struct TriangleBvh::Vicinity {
-    Eigen::Matrix3f axes, spread;
-    Eigen::Vector3f center, half, reach;  ///< half along its own axes, reach along the world's
-
-    Vicinity(const OrientedBox& box, double within_m, const TriangleBvh& bvh) {
-        // Rounding in single precision must not lose a face that touches.
-        const double pad = within_m / bvh.diagonal_m_ + 4.0 * static_cast<double>(kPad);
-        axes = box.pose.linear().cast<float>();
-        spread = axes.cwiseAbs();
-        center = ((box.pose.translation() - bvh.bounds_.center()) / bvh.diagonal_m_).cast<float>();
-        half = ((box.half_extent / bvh.diagonal_m_).array() + pad).matrix().cast<float>();
-        reach = (box.pose.linear().cwiseAbs() * (box.half_extent / bvh.diagonal_m_)).cast<float>();
-        reach.array() += static_cast<float>(pad);
-    }
-
-    /// Per child: how far the boxes lie apart along the axis on which they do so most; an absent
-    /// child gives no number.
-    Eigen::Array4f gaps(const BoxTree::Node& node) const {
-        std::array<Eigen::Array4f, 3> offset, size;
-        Eigen::Array4f gap = Eigen::Array4f::Constant(-kNever);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<Eigen::Index>(axis);
-            offset[axis] = 0.5F * (node.bound[axis][0] + node.bound[axis][1]) - center[a];
-            size[axis] = 0.5F * (node.bound[axis][1] - node.bound[axis][0]);
-            gap = gap.max(offset[axis].abs() - size[axis] - reach[a]);
-        }
-        for (Eigen::Index k = 0; k < 3; ++k) {
-            const Eigen::Array4f along =
-                offset[0] * axes(0, k) + offset[1] * axes(1, k) + offset[2] * axes(2, k);
-            const Eigen::Array4f wide =
-                size[0] * spread(0, k) + size[1] * spread(1, k) + size[2] * spread(2, k);
-            gap = gap.max(along.abs() - wide - half[k]);
-        }
-        return gap;
-    }
-};
-
-std::vector<std::uint32_t> TriangleBvh::faces_near(const OrientedBox& box, double within_m) const {
-    std::vector<std::uint32_t> faces;
-    if (packs_.empty()) return faces;
-    const Vicinity vicinity(box, within_m, *this);
-    std::array<std::uint32_t, BoxTree::kStackDepth> stack;
-    std::size_t top = 0;
-    stack[top++] = tree_.root;
-    while (top > 0) {
-        const std::uint32_t child = stack[--top];
-        if (BoxTree::is_leaf(child)) {
-            const Pack& pack = packs_[BoxTree::leaf_first(child)];
-            faces.insert(faces.end(), number_.begin() + pack.first,
-                         number_.begin() + pack.first + pack.count);
-            continue;
-        }
-        const BoxTree::Node& node = tree_.nodes[child];
-        const Eigen::Array4f gap = vicinity.gaps(node);
-        assert(top + 4 <= stack.size());
-        for (std::size_t k = 0; k < 4; ++k) {
-            const auto lane = static_cast<Eigen::Index>(k);
-            const bool is_there = node.bound[0][0][lane] <= node.bound[0][1][lane];
-            if (is_there && gap[lane] <= 0.0F) stack[top++] = node.child[k];
-        }
-    }
-    std::ranges::sort(faces);
-    return faces;
-}
-
 bool TriangleBvh::contains(const Eigen::Vector3d& point) const {
     if (!bounds_.contains(point)) return false;
     // Directions without zeros or equal components, so that they are parallel to no edge of a
@@ -385,12 +319,13 @@ bool TriangleBvh::contains(const Eigen::Vector3d& point) const {
         Eigen::Vector3d(0.6131, 0.7223, 0.3201).normalized(),
         Eigen::Vector3d(-0.5417, 0.2939, 0.7875).normalized(),
         Eigen::Vector3d(0.2113, -0.8341, -0.5095).normalized()};
-    int inside = 0;
+    int inside = 0, outside = 0;
     for (const Eigen::Vector3d& direction : kDirections) {
         const auto hit = first_hit(point, direction, diagonal_m_);
-        inside += hit && !hit->from_outside;
+        ++(hit && !hit->from_outside ? inside : outside);
+        if (inside == 2 || outside == 2) break;
     }
-    return inside >= 2;
+    return inside == 2;
 }
 
 }  // namespace graspd
