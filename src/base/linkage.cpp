@@ -21,6 +21,10 @@ Eigen::Isometry3d motion_of(const LinkageJoint& joint, double q) {
     return X;
 }
 
+Eigen::Vector3d pad_point(const PadMount& pad, const std::vector<Eigen::Isometry3d>& poses) {
+    return pad.joint < 0 ? pad.point : poses[static_cast<std::size_t>(pad.joint)] * pad.point;
+}
+
 std::optional<PlanError> check_gap(const Linkage& linkage) {
     constexpr int kSteps = 64;
     double last_m = pad_gap_m(linkage, linkage.open_q);
@@ -84,24 +88,41 @@ std::vector<Eigen::Isometry3d> link_poses_H(const Linkage& linkage, double q) {
 }
 
 Eigen::Vector3d pad_point_H(const Linkage& linkage, std::size_t pad, double q) {
-    const PadMount& mount = linkage.pads[pad];
-    if (mount.joint < 0) return mount.point;
-    return link_poses_H(linkage, q)[static_cast<std::size_t>(mount.joint)] * mount.point;
+    return pad_point(linkage.pads[pad], link_poses_H(linkage, q));
 }
 
 double pad_gap_m(const Linkage& linkage, double q) {
-    return linkage.closing_axis_H.dot(pad_point_H(linkage, 1, q) - pad_point_H(linkage, 0, q));
+    const auto poses = link_poses_H(linkage, q);
+    return linkage.closing_axis_H.dot(pad_point(linkage.pads[1], poses) -
+                                      pad_point(linkage.pads[0], poses));
 }
 
 double driver_position(const Linkage& linkage, double opening_m) {
+    constexpr double kExact_m = 1e-15;
+    constexpr int kMostSteps = 200;
     double wide = linkage.open_q, narrow = linkage.closed_q;
-    if (opening_m >= pad_gap_m(linkage, wide)) return wide;
-    if (opening_m <= pad_gap_m(linkage, narrow)) return narrow;
-    for (double middle = 0.5 * (wide + narrow); middle != wide && middle != narrow;
-         middle = 0.5 * (wide + narrow)) {
-        (pad_gap_m(linkage, middle) > opening_m ? wide : narrow) = middle;
+    double over_m = pad_gap_m(linkage, wide) - opening_m;
+    double under_m = pad_gap_m(linkage, narrow) - opening_m;
+    if (over_m <= 0.0) return wide;
+    if (under_m >= 0.0) return narrow;
+    int side = 0;  // of the last step
+    for (int step = 0; step < kMostSteps; ++step) {
+        const double q = (wide * under_m - narrow * over_m) / (under_m - over_m);
+        const double rest_m = pad_gap_m(linkage, q) - opening_m;
+        if (std::abs(rest_m) <= kExact_m || q == wide || q == narrow) return q;
+        if (rest_m > 0.0) {
+            wide = q;
+            over_m = rest_m;
+            if (side > 0) under_m *= 0.5;  // Illinois: else the far end would never move
+            side = 1;
+        } else {
+            narrow = q;
+            under_m = rest_m;
+            if (side < 0) over_m *= 0.5;
+            side = -1;
+        }
     }
-    return wide;
+    return 0.5 * (wide + narrow);
 }
 
 // The path of a point is smooth, so it leaves its chord by at most max |p''| step^2 / 8. Every pair

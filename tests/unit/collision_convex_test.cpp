@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -86,16 +87,21 @@ TEST(ConvexBody, NamesThePartner) {
               kObstacle);
     EXPECT_EQ(find_collision(Scene().obstacle({0.01, 0.01, 0.01}, {0.016, 0, 0}).world(), body),
               std::nullopt);
-    const auto keep_out = [](double x_m) {
-        return Scene().keep_out({0.005, 0.005, 0.005}, {x_m, 0, 0});
-    };
-    EXPECT_EQ(find_collision(keep_out(0.0149).world(), body), kKeepOut);
-    EXPECT_EQ(find_collision(keep_out(0.0151).world(), body), std::nullopt);
-    EXPECT_NEAR(distance_m(keep_out(0.018), body), 0.003, 1e-8);
-    const auto plane = [](double offset_m) { return Scene().plane({0, 0, 1}, offset_m); };
-    EXPECT_EQ(find_collision(plane(-0.0099).world(), body), kPlane);
-    EXPECT_EQ(find_collision(plane(-0.0101).world(), body), std::nullopt);
-    EXPECT_NEAR(distance_m(plane(-0.012), body), 0.002, 1e-12);
+    for (const double x_m : {0.0149, 0.0151, 0.018}) {
+        Scene scene;
+        scene.keep_out({0.005, 0.005, 0.005}, {x_m, 0, 0});
+        EXPECT_EQ(find_collision(scene.world(), body).has_value(), x_m < 0.015);
+        EXPECT_NEAR(distance_m(scene, body), std::max(0.0, x_m - 0.015), 1e-8);
+    }
+    for (const double offset_m : {-0.0099, -0.0101, -0.012}) {
+        Scene scene;
+        scene.plane({0, 0, 1}, offset_m);
+        EXPECT_EQ(find_collision(scene.world(), body).has_value(), offset_m > -0.01);
+        EXPECT_NEAR(distance_m(scene, body), std::max(0.0, -0.01 - offset_m), 1e-12);
+    }
+    EXPECT_EQ(find_collision(Scene().keep_out({0.005, 0.005, 0.005}, {0, 0, 0}).world(), body),
+              kKeepOut);
+    EXPECT_EQ(find_collision(Scene().plane({0, 0, 1}, 0.0).world(), body), kPlane);
     EXPECT_EQ(find_obstruction(block().world(), body), std::nullopt);  // the object does not count
 }
 
@@ -188,11 +194,8 @@ TEST(ConvexGripper, ABevelledFingerFitsWhereItsBoxDoesNot) {
     ManipulabilityConfig one;
     one.preshape_margin_m = 0.0025;
     one.preshape_halvings = 0;
-    const Scene scene = [] {
-        Scene s;
-        s.obstacle({0.004, 0.004, 0.002}, {0.028, 0, -0.009});
-        return s;
-    }();
+    Scene scene;
+    scene.obstacle({0.004, 0.004, 0.002}, {0.028, 0, -0.009});
     EXPECT_EQ(check_motion(scene.world(), parallel_85(), from_above(0, 0), 0.04, one).reason(),
               "finger_hits_obstacle");
     EXPECT_EQ(check_motion(scene.world(), gripper, from_above(0, 0), 0.04, one).reason(), "free");

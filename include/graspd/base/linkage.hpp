@@ -52,8 +52,8 @@ Eigen::Vector3d pad_point_H(const Linkage& linkage, std::size_t pad, double q);
 /// Gap between the pads' faces along the closing axis [m].
 double pad_gap_m(const Linkage& linkage, double q);
 
-/// The driver position at which the pads are `opening_m` apart, clamped to the range; by bisection,
-/// to the last bit.
+/// The driver position at which the pads are `opening_m` apart, clamped to the range; by false
+/// position (Illinois), to 1e-15 m of the gap.
 double driver_position(const Linkage& linkage, double opening_m);
 
 /// How far a point of a joint's link leaves the straight line between its places at two driver
