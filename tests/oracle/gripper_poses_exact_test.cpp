@@ -17,6 +17,7 @@
 
 #include "graspd/base/box_triangle.hpp"
 #include "graspd/base/gripper.hpp"
+#include "graspd/collision/convex_collision.hpp"
 #include "graspd/collision/gripper_collision.hpp"
 #include "graspd/collision/manipulability.hpp"
 #include "support/exact_surface.hpp"
@@ -244,6 +245,42 @@ TEST(GripperPosesOracle, WhatABoxPassesIsTheHullOfBothEnds) {
     }
     EXPECT_GT(hits, 1000);
     EXPECT_GT(free, 1000);
+}
+
+// Hulls of twelve points, each also scaled about its middle so that its faces move by more than the
+// micrometre by which FCL errs.
+TEST(GripperPosesOracle, ConvexBodiesAgreeWithTheExactHull) {
+    constexpr double kScale = 2e-3;
+    const Object object("cup", test::cup(0.04, 0.09, 0.006, 800));
+    std::mt19937_64 random(14);
+    int hits = 0, free = 0, skipped = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const Vector3d place = object.mesh.vertices[random() % object.mesh.vertices.size()] +
+                               0.02 * random_vector(random);
+        const Vector3d size = Vector3d::Constant(0.003) + 0.01 * random_vector(random).cwiseAbs();
+        ConvexBody body;
+        Vector3d middle = Vector3d::Zero();
+        for (int k = 0; k < 12; ++k) {
+            body.points_W.push_back(place + size.cwiseProduct(random_vector(random).normalized()));
+            middle += body.points_W.back() / 12.0;
+        }
+        const auto hull_meets = [&](double scale) {
+            std::vector<Vector3d> points;
+            for (const Vector3d& p : body.points_W) points.push_back(middle + scale * (p - middle));
+            return object.exact.meets_hull(points);
+        };
+        const bool hit = hull_meets(1.0 - kScale);
+        if (hit != hull_meets(1.0 + kScale)) {
+            ++skipped;
+            continue;
+        }
+        const bool within = !hit && object.exact.contains(middle);
+        ++(hit || within ? hits : free);
+        ASSERT_EQ(find_collision(object.world, body).has_value(), hit || within) << i;
+    }
+    EXPECT_GT(hits, 800);
+    EXPECT_GT(free, 800);
+    EXPECT_LT(skipped, 100);
 }
 
 // FCL's narrow phase decides the same but for the micrometre by which it errs.
