@@ -98,6 +98,17 @@ TEST(CheckRetreat, WhatTheHandHoldsMustPassToo) {
     EXPECT_EQ(frame(0.0345), "retreat_hits_obstacle");
 }
 
+// Leaving along (1, 0, 1) the block's lower edge runs from x = 20, z = -60: at x = 58 to -22.
+TEST(CheckRetreat, TheSlantedWayOfTheObjectIsNoBox) {
+    const auto reason = [](double z_m) {
+        return retreat_of(held_block()
+                              .plane(Vector3d(1, 0, 1).normalized(), -0.5)
+                              .obstacle({0.004, 0.004, 0.004}, {0.060, 0.025, z_m}));
+    };
+    EXPECT_EQ(reason(-0.0245), "free");
+    EXPECT_EQ(reason(-0.0200), "retreat_hits_obstacle");
+}
+
 // The block stands on a table that is 1 too high, or 3: the first 2 of its way do not count.
 TEST(CheckRetreat, TheObjectMayComeOffWhatItTouches) {
     const auto on_table = [](double top_m, double release_m) {
