@@ -17,7 +17,7 @@ STAGES = ["mesh", "concavity", "regions", "contour", "grasp", "collision"]
 ALLOWED = {
     "base": set(),
     **{stage: {"base"} for stage in STAGES},
-    "config": {"base"},
+    "config": {"base", "mesh"},  # mesh: a URDF's collision meshes
     "planner": {"base", *STAGES},
     "dds": {"base", "planner"},
     "cli": {"base", *STAGES, "planner", "config", "dds"},

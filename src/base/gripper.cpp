@@ -32,6 +32,33 @@ std::optional<PlanError> check_travel(const Gripper& gripper) {
     return std::nullopt;
 }
 
+std::optional<PlanError> check_parts(const Gripper& gripper) {
+    const auto joints =
+        gripper.linkage ? static_cast<std::int32_t>(gripper.linkage->joints.size()) : 0;
+    for (std::size_t i = 0; i < gripper.convex_parts.size(); ++i) {
+        const ConvexPart& part = gripper.convex_parts[i];
+        const auto wrong = [&](const std::string& what) {
+            return PlanError{PlanErrorCode::kInvalidInput,
+                             "gripper.convex_parts[" + std::to_string(i) + "] " + part.name + what};
+        };
+        if (part.points.size() < 4) {
+            return wrong(" has " + std::to_string(part.points.size()) + " points, fewer than 4");
+        }
+        for (const Eigen::Vector3d& point : part.points) {
+            if (point.allFinite() && point.cwiseAbs().maxCoeff() <= kLargest_m) continue;
+            std::ostringstream text;
+            text << " has the point " << point.transpose() << ", outside [" << -kLargest_m << ", "
+                 << kLargest_m << "] m";
+            return wrong(text.str());
+        }
+        if (part.joint < -1 || part.joint >= joints) {
+            return wrong(" hangs on joint " + std::to_string(part.joint) + " of " +
+                         std::to_string(joints));
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<PlanError> validate(const Gripper& gripper) {
@@ -51,6 +78,8 @@ std::optional<PlanError> validate(const Gripper& gripper) {
         {"palm_height", gripper.palm_height_m, kLeast_m},
         {"palm_depth", gripper.palm_depth_m, kLeast_m},
         {"palm_z", gripper.palm_z_m, -kLargest_m},
+        {"pad_width", gripper.pad_width_m, 0.0},
+        {"pad_height", gripper.pad_height_m, 0.0},
     };
     for (const Row& row : rows) {
         if (auto bad = check(row.field, row.value, row.least, kLargest_m)) return bad;
@@ -62,7 +91,11 @@ std::optional<PlanError> validate(const Gripper& gripper) {
         return PlanError{PlanErrorCode::kInvalidInput,
                          "gripper.closing_yaw is not a finite number"};
     }
-    return check_travel(gripper);
+    if (auto bad = check_travel(gripper)) return bad;
+    if (gripper.linkage) {
+        if (auto bad = validate(*gripper.linkage)) return bad;
+    }
+    return check_parts(gripper);
 }
 
 double pad_z_m(const Gripper& gripper, double opening_m) {

@@ -363,12 +363,13 @@ bool TriangleBvh::contains(const Eigen::Vector3d& point) const {
         Eigen::Vector3d(0.6131, 0.7223, 0.3201).normalized(),
         Eigen::Vector3d(-0.5417, 0.2939, 0.7875).normalized(),
         Eigen::Vector3d(0.2113, -0.8341, -0.5095).normalized()};
-    int inside = 0;
+    int inside = 0, outside = 0;
     for (const Eigen::Vector3d& direction : kDirections) {
         const auto hit = first_hit(point, direction, diagonal_m_);
-        inside += hit && !hit->from_outside;
+        ++(hit && !hit->from_outside ? inside : outside);
+        if (inside == 2 || outside == 2) break;
     }
-    return inside >= 2;
+    return inside == 2;
 }
 
 }  // namespace graspd

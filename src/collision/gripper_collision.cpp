@@ -5,14 +5,13 @@
 #include <cassert>
 #include <cmath>
 
-#include <fcl/geometry/shape/box.h>
-#include <fcl/narrowphase/detail/gjk_solver_libccd.h>
-
 #include "box_distance.hpp"
+#include "box_overlap.hpp"
 
 namespace graspd {
 namespace {
 
+using collision_detail::boxes_meet;
 using collision_detail::Corners;
 using collision_detail::distance_m;
 
@@ -21,20 +20,9 @@ Corners corners_of(const TriangleMesh& mesh, std::uint32_t face) {
     return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-fcl::Boxd shape_of(const OrientedBox& box) {
-    return fcl::Boxd(2.0 * box.half_extent);
-}
-
-bool hits_body(const CollisionBody& body, const OrientedBox& box) {
-    const fcl::detail::GJKSolver_libccdd solver;
-    const fcl::Boxd shape = shape_of(box);
-    const std::vector<std::uint32_t> near = body.bvh->faces_near(box, 0.0);
-    const bool hit = std::ranges::any_of(near, [&](std::uint32_t face) {
-        const Corners t = corners_of(*body.mesh, face);
-        return solver.shapeTriangleIntersect(shape, box.pose, t[0], t[1], t[2]);
-    });
+bool hits_body(const CollisionBody& body, const OrientedBox& box, const Eigen::Vector3d& way) {
     // Without a common triangle the box lies either wholly outside or wholly inside.
-    return hit || body.bvh->contains(box.pose.translation());
+    return body.bvh->meets_box(box, way) || body.bvh->surrounds(box);
 }
 
 /// How far the box's lowest corner stands above the plane; negative below it.
@@ -42,11 +30,6 @@ double height_over(const HalfSpace& plane, const OrientedBox& box) {
     const Eigen::Vector3d along = box.pose.linear().transpose() * plane.normal;
     return plane.normal.dot(box.pose.translation()) - plane.offset_m -
            along.cwiseAbs().dot(box.half_extent);
-}
-
-bool hits_box(const OrientedBox& keep_out, const OrientedBox& box) {
-    return fcl::detail::GJKSolver_libccdd().shapeIntersect(shape_of(keep_out), keep_out.pose,
-                                                           shape_of(box), box.pose, nullptr);
 }
 
 double distance_to_body(const CollisionBody& body, const OrientedBox& box, double most_m) {
@@ -73,16 +56,25 @@ const char* to_string(CollisionPartner partner) {
     return "unknown";
 }
 
-std::optional<CollisionPartner> find_collision(const CollisionWorld& world,
-                                               const OrientedBox& box) {
-    assert(box.pose.matrix().allFinite() && box.half_extent.allFinite());
-    if (hits_body(world.object, box)) return CollisionPartner::kObject;
+std::optional<CollisionPartner> find_collision(const CollisionWorld& world, const OrientedBox& box,
+                                               const Eigen::Vector3d& way) {
+    assert(box.pose.matrix().allFinite() && box.half_extent.allFinite() && way.allFinite());
+    if (hits_body(world.object, box, way)) return CollisionPartner::kObject;
+    return find_obstruction(world, box, way);
+}
+
+std::optional<CollisionPartner> find_obstruction(const CollisionWorld& world,
+                                                 const OrientedBox& box,
+                                                 const Eigen::Vector3d& way) {
     for (const CollisionBody& obstacle : world.obstacles) {
-        if (hits_body(obstacle, box)) return CollisionPartner::kObstacle;
+        if (hits_body(obstacle, box, way)) return CollisionPartner::kObstacle;
     }
-    if (world.plane && height_over(*world.plane, box) <= 0.0) return CollisionPartner::kPlane;
+    if (world.plane &&
+        height_over(*world.plane, box) + std::min(0.0, world.plane->normal.dot(way)) <= 0.0) {
+        return CollisionPartner::kPlane;
+    }
     for (const OrientedBox& keep_out : world.keep_out) {
-        if (hits_box(keep_out, box)) return CollisionPartner::kKeepOut;
+        if (boxes_meet(keep_out, box, way)) return CollisionPartner::kKeepOut;
     }
     return std::nullopt;
 }

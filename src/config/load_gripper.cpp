@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "graspd/base/hull_points.hpp"
 #include "graspd/config/load_config.hpp"
+#include "urdf_gripper.hpp"
 #include "yaml_scalar.hpp"
 
 namespace graspd {
@@ -28,7 +30,9 @@ std::vector<SettingRef> gripper_settings(Gripper& gripper) {
             {{"palm_height"}, &gripper.palm_height_m, ""},
             {{"palm_depth"}, &gripper.palm_depth_m, ""},
             {{"palm_z"}, &gripper.palm_z_m, ""},
-            {{"closing_yaw"}, &gripper.closing_yaw_rad, ""}};
+            {{"closing_yaw"}, &gripper.closing_yaw_rad, ""},
+            {{"pad_width"}, &gripper.pad_width_m, ""},
+            {{"pad_height"}, &gripper.pad_height_m, ""}};
 }
 
 std::optional<PlanError> read_travel(const std::filesystem::path& file, const YAML::Node& node,
@@ -54,6 +58,41 @@ std::optional<PlanError> read_travel(const std::filesystem::path& file, const YA
     return std::nullopt;
 }
 
+/// Every hull of a list of {member, points}.
+std::optional<PlanError> read_parts(const std::filesystem::path& file, const YAML::Node& node,
+                                    std::vector<ConvexPart>& parts) {
+    using config_detail::bad_value;
+    constexpr const char* kRow = "must be {member: palm|finger_left|finger_right, points: [...]}";
+    constexpr std::array kMembers = {"palm", "finger_left", "finger_right"};
+    if (!node.IsDefined()) return std::nullopt;
+    if (!node.IsSequence()) return bad_value(file, node, "convex_parts", kRow);
+    for (const YAML::Node& entry : node) {
+        const std::string key = "convex_parts[" + std::to_string(parts.size()) + "]";
+        if (!entry.IsMap() || !entry["member"].IsDefined() || !entry["points"].IsSequence() ||
+            entry.size() != 2) {
+            return bad_value(file, entry, key, kRow);
+        }
+        const auto member = std::ranges::find(kMembers, entry["member"].Scalar());
+        if (member == kMembers.end())
+            return bad_value(file, entry["member"], key + ".member", kRow);
+        std::vector<Eigen::Vector3d> points;
+        for (const YAML::Node& row : entry["points"]) {
+            if (auto bad =
+                    config_detail::read_point(file, row, key + ".points", points.emplace_back())) {
+                return bad;
+            }
+        }
+        auto hull = hull_points(points);
+        if (!hull.ok()) {
+            return PlanError{hull.error().code,
+                             file.string() + ": " + key + ": " + hull.error().detail};
+        }
+        parts.push_back(
+            {key, static_cast<GripperMember>(member - kMembers.begin()), std::move(hull).value()});
+    }
+    return std::nullopt;
+}
+
 /// A name travels in messages, file names and the wire: it is a plain word.
 bool is_word(const std::string& name) {
     const auto fits = [](char c) {
@@ -63,33 +102,49 @@ bool is_word(const std::string& name) {
     return !name.empty() && name.size() <= 64 && std::ranges::all_of(name, fits);
 }
 
+/// A profile of dimensions.
+Result<Gripper> load_dimensions(const std::filesystem::path& file, const YAML::Node& root) {
+    Gripper gripper;
+    const auto settings = gripper_settings(gripper);
+    if (auto error =
+            config_detail::assign_yaml(file, root, settings, {"pad_travel", "convex_parts"})) {
+        return *std::move(error);
+    }
+    const auto absent = std::ranges::find_if(
+        kRequired, [&](const char* key) { return !root.IsMap() || !root[key].IsDefined(); });
+    if (absent != kRequired.end()) {
+        return PlanError{PlanErrorCode::kInvalidInput,
+                         file.string() + ": key " + *absent + " is missing"};
+    }
+    if (auto error = read_travel(file, root["pad_travel"], gripper.pad_travel)) {
+        return *std::move(error);
+    }
+    if (auto error = read_parts(file, root["convex_parts"], gripper.convex_parts)) {
+        return *std::move(error);
+    }
+    return gripper;
+}
+
 }  // namespace
 
 Result<Gripper> load_gripper(const std::filesystem::path& file) {
     const auto root = config_detail::load_yaml(file);
     if (!root.ok()) return root.error();
-    Gripper gripper;
-    const auto settings = gripper_settings(gripper);
-    if (auto error = config_detail::assign_yaml(file, root.value(), settings, {"pad_travel"})) {
-        return *std::move(error);
-    }
-    const auto absent = std::ranges::find_if(kRequired, [&](const char* key) {
-        return !root.value().IsMap() || !root.value()[key].IsDefined();
-    });
-    if (absent != kRequired.end()) {
-        return PlanError{PlanErrorCode::kInvalidInput,
-                         file.string() + ": key " + *absent + " is missing"};
-    }
-    if (auto error = read_travel(file, root.value()["pad_travel"], gripper.pad_travel)) {
-        return *std::move(error);
-    }
+    const bool of_urdf = root.value().IsMap() && root.value()["urdf"].IsDefined();
+    auto loaded = of_urdf ? config_detail::load_urdf_gripper(file, root.value())
+                          : load_dimensions(file, root.value());
+    if (!loaded.ok()) return loaded.error();
+    Gripper gripper = std::move(loaded).value();
     if (!is_word(gripper.name)) {
         return config_detail::bad_value(file, root.value()["name"], "name",
                                         "must be 1 to 64 of the characters A-Z a-z 0-9 . _ -");
     }
-    if (auto error = validate(gripper)) {
-        return PlanError{error->code, file.string() + ": " + error->detail};
+    auto error = validate(gripper);
+    if (!error && !of_urdf && !gripper.convex_parts.empty()) {
+        fit_boxes(gripper);
+        error = validate(gripper);
     }
+    if (error) return PlanError{error->code, file.string() + ": " + error->detail};
     return gripper;
 }
 
@@ -124,6 +179,15 @@ Result<std::vector<Gripper>> load_grippers(const std::filesystem::path& director
 Result<Gripper> find_gripper(const std::string& name_or_file,
                              const std::filesystem::path& directory) {
     if (name_or_file.ends_with(".yaml")) return load_gripper(name_or_file);
+    if (name_or_file.ends_with(".urdf")) {
+        auto beside = std::filesystem::path(name_or_file).replace_extension(".yaml");
+        if (std::filesystem::exists(beside)) return load_gripper(beside);
+        return PlanError{PlanErrorCode::kUnreadableFile,
+                         "gripper = " + name_or_file +
+                             ": a URDF does not say what is palm, finger "
+                             "and pad; " +
+                             beside.string() + " with the key urdf must (docs/interface.md)"};
+    }
     auto grippers = load_grippers(directory);
     if (!grippers.ok()) return grippers.error();
     std::string known;

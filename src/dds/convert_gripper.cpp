@@ -1,6 +1,9 @@
 #include "convert_gripper.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "graspd/base/hull_points.hpp"
 
 namespace graspd::dds {
 namespace {
@@ -8,6 +11,7 @@ namespace {
 constexpr std::size_t kMostGrippers = 8;  // the bounds of idl/graspd.idl
 constexpr std::size_t kMostTravel = 64;
 constexpr std::size_t kMostName = 64;
+constexpr std::size_t kMostParts = 16;
 
 std::string names_of(std::span<const Gripper> known) {
     std::string text;
@@ -15,19 +19,30 @@ std::string names_of(std::span<const Gripper> known) {
     return text.empty() ? "none" : text;
 }
 
-void refuse_meshes(const std::vector<shape_msgs::msg::dds_::Mesh_>& meshes,
-                   const std::string& field, FirstError& errors) {
-    if (meshes.empty()) return;
-    errors.set(PlanErrorCode::kUnsupported, field + " has " + std::to_string(meshes.size()) +
-                                                " meshes; convex parts are not served yet");
+using Meshes = std::vector<shape_msgs::msg::dds_::Mesh_>;
+
+/// A member's convex parts; of a mesh the vertices alone count.
+void read_parts(const Meshes& meshes, GripperMember member, const std::string& field,
+                FirstError& errors, std::vector<ConvexPart>& parts) {
+    check_count(meshes.size(), kMostParts, field.c_str(), errors);
+    for (std::size_t i = 0; i < meshes.size() && !errors.any(); ++i) {
+        const std::string path = element(field.c_str(), i);
+        const TriangleMesh mesh = read_mesh(meshes[i]);
+        const bool finite = std::ranges::all_of(
+            mesh.vertices, [](const Eigen::Vector3d& vertex) { return vertex.allFinite(); });
+        if (!finite) return errors.invalid(path + " has a vertex that is not finite");
+        auto hull = hull_points(mesh.vertices);
+        if (!hull.ok()) {
+            return errors.invalid(path + ": " + hull.error().detail +
+                                  "; 4 or more that do not lie in one plane are needed");
+        }
+        parts.push_back({path, member, std::move(hull).value()});
+    }
 }
 
 Gripper read_gripper(const wire::Gripper_& in, const std::string& path, FirstError& errors) {
     check_text(in.name(), path + ".name", {1, kMostName}, errors);
     check_count(in.pad_travel().size(), kMostTravel, (path + ".pad_travel").c_str(), errors);
-    refuse_meshes(in.palm_meshes(), path + ".palm_meshes", errors);
-    refuse_meshes(in.finger_left_meshes(), path + ".finger_left_meshes", errors);
-    refuse_meshes(in.finger_right_meshes(), path + ".finger_right_meshes", errors);
     Gripper out{.name = in.name(),
                 .min_width_m = in.min_width(),
                 .max_width_m = in.max_width(),
@@ -40,12 +55,42 @@ Gripper read_gripper(const wire::Gripper_& in, const std::string& path, FirstErr
                 .palm_depth_m = in.palm_depth(),
                 .palm_z_m = in.palm_z(),
                 .closing_yaw_rad = in.closing_yaw(),
-                .pad_travel = {}};
+                .pad_travel = {},
+                .pad_width_m = 0.0,
+                .pad_height_m = 0.0,
+                .convex_parts = {},
+                .linkage = {}};
     for (const wire::PadTravel_& row : in.pad_travel()) {
         out.pad_travel.push_back({row.opening(), row.pad_z()});
     }
-    if (const auto bad = validate(out)) errors.set(bad->code, path + ": " + bad->detail);
+    using enum GripperMember;
+    read_parts(in.palm_meshes(), kPalm, path + ".palm_meshes", errors, out.convex_parts);
+    read_parts(in.finger_left_meshes(), kFingerLeft, path + ".finger_left_meshes", errors,
+               out.convex_parts);
+    read_parts(in.finger_right_meshes(), kFingerRight, path + ".finger_right_meshes", errors,
+               out.convex_parts);
+    auto bad = validate(out);
+    if (!bad && !out.convex_parts.empty()) {
+        fit_boxes(out);
+        bad = validate(out);
+    }
+    if (bad) errors.set(bad->code, path + ": " + bad->detail);
     return out;
+}
+
+/// The reader grows the boxes to hold the parts, so the finger's box tells the pad's size.
+void write_parts(const Gripper& gripper, wire::Gripper_& out) {
+    const Eigen::Vector2d pad = pad_half_size_m(gripper);
+    out.finger_width(2.0 * pad.x());
+    out.tip_offset(pad.y());
+    for (const ConvexPart& part : gripper.convex_parts) {
+        const auto mesh = write_mesh({part.points, {}});
+        switch (part.member) {
+            case GripperMember::kPalm: out.palm_meshes().push_back(mesh); break;
+            case GripperMember::kFingerLeft: out.finger_left_meshes().push_back(mesh); break;
+            case GripperMember::kFingerRight: out.finger_right_meshes().push_back(mesh); break;
+        }
+    }
 }
 
 }  // namespace
@@ -94,6 +139,7 @@ wire::Gripper_ write_gripper(const Gripper& gripper) {
     out.palm_depth(gripper.palm_depth_m);
     out.palm_z(gripper.palm_z_m);
     out.closing_yaw(gripper.closing_yaw_rad);
+    if (!gripper.linkage && !gripper.convex_parts.empty()) write_parts(gripper, out);
     for (const PadTravel& row : gripper.pad_travel) {
         wire::PadTravel_ entry;
         entry.opening(row.opening_m);

@@ -9,11 +9,12 @@
 namespace graspd::dds {
 
 /// The grippers of a request: the profile it names, or those that it brings along, never both.
-/// Notes kUnknownGripper with the known names, kUnsupported for convex parts, or what validate()
-/// says of an inline one.
+/// Notes kUnknownGripper with the known names, or what is wrong with an inline one: validate(), a
+/// convex part without a volume.
 std::vector<Gripper> read_grippers(const wire::GraspRequest_& request,
                                    std::span<const Gripper> known, FirstError& errors);
 
+/// A gripper for a request. The wire has no linkage: one that has some goes as the boxes around it.
 wire::Gripper_ write_gripper(const Gripper& gripper);
 
 }  // namespace graspd::dds

@@ -23,6 +23,7 @@ public:
     bool reach();
     bool close();
     bool move();
+    bool retreat();
     bool balance();
     bool press();
     void grade();
@@ -65,7 +66,8 @@ bool Examination::reach() {
 Result<LocalCloud> Examination::close_from_widest() const {
     const Gripper& gripper = judgement_.gripper;
     const ManipulabilityConfig& config = judgement_.config.manipulability;
-    PadFootprint footprint{0.5 * gripper.finger_width_m, gripper.tip_offset_m, 0.0};
+    const Eigen::Vector2d pad = pad_half_size_m(gripper);
+    PadFootprint footprint{pad.x(), pad.y(), 0.0};
     double margin_m = config.preshape_margin_m;
     for (std::uint32_t i = 0;; ++i, margin_m *= 0.5) {
         footprint.half_reach_m = 0.5 * grasp_.width_m + margin_m;
@@ -101,8 +103,17 @@ bool Examination::move() {
     });
     if (!judge(check)) return false;
     grasp_.open_width_m = check.open_width_m;
-    log_.out(kManipulability, 1);
     return true;
+}
+
+/// Whether the hand gets away with the object.
+bool Examination::retreat() {
+    const bool free = judge(log_.run(kManipulability, 1, [&] {
+        return check_retreat(judgement_.world_P, judgement_.gripper, grasp_.X_PG, grasp_.width_m,
+                             judgement_.config.manipulability);
+    }));
+    log_.out(kManipulability, free ? 1 : 0);
+    return free;
 }
 
 /// Section II-F: the two sides, the angle between their lines, and the friction they need.
@@ -176,7 +187,8 @@ std::optional<GradedGrasp> evaluate_pose(const ClosingAxis& axis, const Approach
                                          StageLog& log) {
     Examination pose(axis, judgement, rejections, log);
     pose.grasp_.X_PG = local_frame(axis, approach);
-    if (!pose.reach() || !pose.close() || !pose.balance() || !pose.move() || !pose.press()) {
+    if (!pose.reach() || !pose.close() || !pose.balance() || !pose.move() || !pose.retreat() ||
+        !pose.press()) {
         return std::nullopt;
     }
     pose.grade();

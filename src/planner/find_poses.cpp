@@ -29,6 +29,7 @@ NearestCone nearest_cone(const Judgement& judgement, const Eigen::Isometry3d& X_
 /// Looks along the middle lines of palm and fingers. @return the typed reason when one is blocked
 const char* line_blocked(const Judgement& judgement, const Eigen::Isometry3d& X_PG,
                          double width_m) {
+    if (!judgement.gripper.convex_parts.empty()) return nullptr;  // need not fill their boxes
     const ManipulabilityConfig& config = judgement.config.manipulability;
     const double least_margin_m = least_preshape_margin_m(config);
     const auto parts = gripper_parts(judgement.gripper, width_m, width_m + 2.0 * least_margin_m);

@@ -28,9 +28,9 @@ Result<std::vector<GradedGrasp>> best_of(const std::vector<GradedGrasp>& grasps,
 
 double clearance_m(const GradedGrasp& grasp, const CollisionWorld& world_P, double most_m,
                    const PlannerConfig& config) {
-    const auto boxes = swept_approach(*grasp.gripper, grasp.X_PG, grasp.width_m, grasp.open_width_m,
-                                      config.manipulability.approach_distance_m);
-    return find_clearance(world_P, boxes, most_m).distance_m;
+    const ApproachShape shape{grasp.width_m, grasp.open_width_m,
+                              config.manipulability.approach_distance_m};
+    return approach_clearance(world_P, *grasp.gripper, grasp.X_PG, shape, most_m).distance_m;
 }
 
 /// Drops the grasps that come nearer to anything than the request allows. All of them are asked,

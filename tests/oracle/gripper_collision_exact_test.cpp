@@ -5,7 +5,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
-#include <CGAL/squared_distance_3.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "graspd/collision/gripper_collision.hpp"
+#include "support/exact_surface.hpp"
 #include "support/shapes.hpp"
 
 namespace graspd {
@@ -24,7 +24,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Eigen::Vector3d;
 
-constexpr double kBorderline_m = 1e-6;  // FCL errs by up to 6.5e-7 m: poses that near do not count
+constexpr double kBorderline_m = 1e-9;  // poses that near do not count
 
 double fraction(std::mt19937_64& random) {
     return static_cast<double>(random() >> 11) * 0x1.0p-53;
@@ -98,30 +98,6 @@ bool inside(const Vector3d& p, const TriangleMesh& mesh) {
     return angle > 2.0 * std::numbers::pi;
 }
 
-double distance_m(const Corners& c, const Vector3d& half) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Vector3d& p : c) {
-        least = std::min(least, (p.cwiseAbs() - half).cwiseMax(0.0).squaredNorm());
-    }
-    const auto corner = [&](int k) {
-        return Vector3d((k & 1) != 0 ? half.x() : -half.x(), (k & 2) != 0 ? half.y() : -half.y(),
-                        (k & 4) != 0 ? half.z() : -half.z());
-    };
-    const Kernel::Triangle_3 face = triangle(c);
-    for (int k = 0; k < 8; ++k) {
-        least = std::min(least, CGAL::squared_distance(point(corner(k)), face));
-        for (const int bit : {1, 2, 4}) {
-            if ((k & bit) != 0) continue;
-            const Kernel::Segment_3 edge(point(corner(k)), point(corner(k | bit)));
-            for (std::size_t i = 0; i < 3; ++i) {
-                const Kernel::Segment_3 side(point(c[i]), point(c[(i + 1) % 3]));
-                least = std::min(least, CGAL::squared_distance(edge, side));
-            }
-        }
-    }
-    return std::sqrt(least);
-}
-
 TEST(GripperCollisionOracle, CollisionAgreesWithExactPredicatesOverAllFaces) {
     int within_all = 0;
     for (const Object& object : objects()) {
@@ -160,8 +136,9 @@ TEST(GripperCollisionOracle, ClearanceAgreesWithTheDistanceToEveryFace) {
             if (find_collision(world, box)) continue;
             double exact_m = std::numeric_limits<double>::infinity();
             for (const Triangle& face : object.mesh.faces) {
-                exact_m = std::min(exact_m,
-                                   distance_m(corners_in(box, object.mesh, face), box.half_extent));
+                exact_m = std::min(
+                    exact_m,
+                    test::exact_distance_m(box.half_extent, corners_in(box, object.mesh, face)));
             }
             const auto found = find_clearance(world, std::vector{box}, 0.03);
             EXPECT_NEAR(found.distance_m, std::min(exact_m, 0.03), 1e-9)
@@ -188,7 +165,7 @@ TEST(GripperCollisionOracle, NoNearFaceIsMissing) {
             for (std::uint32_t f = 0; f < object.mesh.faces.size(); ++f) {
                 const Corners c = corners_in(box, object.mesh, object.mesh.faces[f]);
                 const bool meets = CGAL::do_intersect(cuboid, triangle(c));
-                if (!meets && distance_m(c, box.half_extent) > within_m) continue;
+                if (!meets && test::exact_distance_m(box.half_extent, c) > within_m) continue;
                 ++near;
                 EXPECT_TRUE(std::ranges::binary_search(faces, f))
                     << object.name << " pose " << i << " face " << f;

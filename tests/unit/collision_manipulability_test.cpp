@@ -6,24 +6,21 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <utility>
 #include <vector>
 
+#include "support/collision_scene.hpp"
 #include "support/shapes.hpp"
 
 namespace graspd {
 namespace {
 
 using Eigen::Vector3d;
+using test::from_above;
+using test::parallel_85;
+using Scene = test::CollisionScene;
 
 constexpr ManipulabilityConfig kConfig;  // margins 10, 5, 2.5; approach 100; tolerance 0.5
-
-Gripper parallel_85() {
-    Gripper gripper;  // the struct's defaults are its dimensions
-    gripper.name = "parallel_85";
-    return gripper;
-}
 
 /// Opening and pads as in profiles/grippers/robotiq_2f_85.yaml; the rest plain.
 Gripper linkage() {
@@ -31,59 +28,6 @@ Gripper linkage() {
     gripper.tip_offset_m = 0.01875;
     gripper.pad_travel = {{0.0453, 0.14165}, {0.0584, 0.13915}, {0.0664, 0.13705}};
     return gripper;
-}
-
-/// Bodies and what points at them.
-class Scene {
-public:
-    explicit Scene(TriangleMesh object) { world_.object = add(std::move(object)); }
-    /// With an object that is out of the way.
-    Scene() : Scene(moved_box({0.01, 0.01, 0.01}, {9, 9, 9})) {}
-    Scene& obstacle(const Vector3d& size, const Vector3d& center) {
-        world_.obstacles.push_back(add(moved_box(size, center)));
-        return *this;
-    }
-    Scene& keep_out(const Vector3d& half, const Vector3d& center) {
-        OrientedBox box;
-        box.half_extent = half;
-        box.pose.translation() = center;
-        world_.keep_out.push_back(box);
-        return *this;
-    }
-    Scene& plane(const Vector3d& normal, double offset_m) {
-        world_.plane = HalfSpace{normal, offset_m};
-        return *this;
-    }
-    const CollisionWorld& world() const { return world_; }
-    MotionCheck check(const Eigen::Isometry3d& X_WG, double width_m,
-                      const Gripper& gripper = parallel_85(),
-                      const ManipulabilityConfig& config = kConfig) const {
-        return check_motion(world_, gripper, X_WG, width_m, config);
-    }
-
-private:
-    struct Body {
-        TriangleMesh mesh;
-        TriangleBvh tree;
-    };
-    static TriangleMesh moved_box(const Vector3d& size, const Vector3d& center) {
-        return test::moved(test::box(size), Eigen::Isometry3d(Eigen::Translation3d(center)));
-    }
-    CollisionBody add(TriangleMesh mesh) {
-        TriangleBvh tree(mesh, 1e-7);
-        bodies_.push_back(std::make_unique<Body>(Body{std::move(mesh), std::move(tree)}));
-        return {&bodies_.back()->mesh, &bodies_.back()->tree};
-    }
-    std::vector<std::unique_ptr<Body>> bodies_;
-    CollisionWorld world_;
-};
-
-/// A hand that comes from above (Gz down, Gx along x) with its TCP at a place.
-Eigen::Isometry3d from_above(double x, double z) {
-    Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
-    X_WG.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-    X_WG.translation() << x, 0, z;
-    return X_WG;
 }
 
 /// U channel with walls 10 thick; the right wall's middle stands at x = gap / 2 + 5.
@@ -266,6 +210,25 @@ TEST(CheckMotion, LinkageFingersComeForwardWhileTheyClose) {
     EXPECT_EQ(reason(0.016), "closing_hits_plane");
     EXPECT_EQ(reason(0.01445), "closing_hits_plane");
     EXPECT_EQ(reason(0.01443), "finger_hits_plane");
+}
+
+// Open by 20 more than the contact the right finger begins at x = 32.65 with its tip at 14.4; at
+// the row 58.4 it begins at 29.2 with the tip at 18.75 - 2.5 = 16.25, and it ends at 23.15
+// and 18.56. A post from 17 to 19 is met by what stands over x = 35 (tip 17.9 when the outer side
+// is there), not over 38 (16.7). The box around both ends, up to 18.56 for x up to 42.65, meets it
+// there as well.
+TEST(CheckMotion, LinkageFingersPassNoMoreThanTheirWay) {
+    ManipulabilityConfig one = kConfig;
+    one.preshape_halvings = 0;
+    const auto reason = [&](double x_m) {
+        return Scene()
+            .obstacle({0.002, 0.004, 0.002}, {x_m, 0, 0.018})
+            .check(Eigen::Isometry3d::Identity(), 0.0453, linkage(), one)
+            .reason();
+    };
+    EXPECT_EQ(reason(0.025), "closing_hits_obstacle");
+    EXPECT_EQ(reason(0.034), "closing_hits_obstacle");
+    EXPECT_EQ(reason(0.039), "free");
 }
 
 TEST(SweptApproach, SpansFromPreGraspToGrasp) {

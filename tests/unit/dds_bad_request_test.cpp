@@ -100,18 +100,24 @@ const BadField kBadFields[] = {
     {"LongTravel",
      [](Wire& r) { r.grippers()[1].pad_travel().resize(65); },
      {"grippers[1].pad_travel", "65"}},
-    {"PalmMeshes",
+    {"EmptyPart",
      [](Wire& r) { r.grippers()[0].palm_meshes().resize(2); },
-     {"grippers[0].palm_meshes", "2"},
-     kUnsupported},
-    {"LeftMeshes",
-     [](Wire& r) { r.grippers()[0].finger_left_meshes().resize(1); },
-     {"grippers[0].finger_left_meshes"},
-     kUnsupported},
-    {"RightMeshes",
-     [](Wire& r) { r.grippers()[0].finger_right_meshes().resize(1); },
-     {"grippers[0].finger_right_meshes"},
-     kUnsupported},
+     {"grippers[0].palm_meshes[0]", "0 points"}},
+    {"FlatPart",
+     [](Wire& r) {
+         r.grippers()[0].finger_left_meshes().push_back(
+             write_mesh({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {}}));
+     },
+     {"grippers[0].finger_left_meshes[0]", "4 points", "one plane"}},
+    {"NaNPart",
+     [](Wire& r) {
+         r.grippers()[0].finger_right_meshes().push_back(
+             write_mesh({{{0, 0, 0}, {1, 0, 0}, {0, kNaN, 0}, {1, 1, 1}}, {}}));
+     },
+     {"grippers[0].finger_right_meshes[0]", "not finite"}},
+    {"ManyParts",
+     [](Wire& r) { r.grippers()[0].palm_meshes().resize(17); },
+     {"grippers[0].palm_meshes has 17", "16"}},
     {"TwoPlanes", [](Wire& r) { r.support_plane().resize(2); }, {"support_plane", "2"}},
     {"ShortNormal",
      [](Wire& r) {

@@ -36,6 +36,39 @@ TEST(ConvertRequest, DefaultsComeBack) {
     expect_same(small_request(), back.value());
 }
 
+// The boxes around the parts and the pads' size are the same at both ends.
+TEST(ConvertRequest, ConvexPartsComeBack) {
+    PlanRequest request = small_request();
+    Gripper gripper;
+    gripper.name = "hulls";
+    gripper.convex_parts = {
+        {"", GripperMember::kPalm, {{0, 0, 0}, {0.05, 0, 0}, {0, 0.03, 0}, {0, 0, 0.07}}},
+        {"",
+         GripperMember::kFingerRight,
+         {{0.0425, -0.014, 0.06}, {0.055, 0, 0.07}, {0.0425, 0.012, 0.06}, {0.0425, 0, 0.13}}},
+        {"",
+         GripperMember::kFingerLeft,
+         {{-0.0425, -0.014, 0.06}, {-0.055, 0, 0.07}, {-0.0425, 0.012, 0.06}, {-0.0425, 0, 0.13}}}};
+    fit_boxes(gripper);
+    request.grippers = {gripper};
+    const auto back = read_request(on_wire(request), {});
+    ASSERT_TRUE(back.ok()) << back.error().detail;
+    const Gripper& out = back.value().grippers.at(0);
+    ASSERT_EQ(out.convex_parts.size(), 3u);
+    EXPECT_EQ(out.convex_parts[0].points, gripper.convex_parts[0].points);
+    EXPECT_EQ(out.convex_parts[1].member, GripperMember::kFingerLeft);  // palm, left, right
+    EXPECT_EQ(out.convex_parts[1].points, gripper.convex_parts[2].points);
+    EXPECT_EQ(out.convex_parts[2].points, gripper.convex_parts[1].points);
+    EXPECT_NEAR(out.palm_width_m, 0.10, 1e-15);
+    EXPECT_NEAR(out.palm_depth_m, 0.07, 1e-15);
+    EXPECT_NEAR(out.finger_width_m, 0.028, 1e-15);
+    EXPECT_NEAR(out.finger_thickness_m, 0.0125, 1e-15);
+    EXPECT_NEAR(out.tip_offset_m, gripper.tip_offset_m, 1e-15);
+    EXPECT_NEAR(out.finger_length_m, gripper.finger_length_m, 1e-15);
+    EXPECT_EQ(pad_half_size_m(out), Eigen::Vector2d(0.01, 0.01));
+    EXPECT_EQ(pad_z_m(out, 0.02), pad_z_m(gripper, 0.02));
+}
+
 TEST(ConvertRequest, CloudComesBackWithItsNaNAndSensor) {
     PlanRequest request = small_request();
     request.object_O = PointCloud{{{1, 2, 3}, {0.1, 0.2, 0.3}}, Eigen::Vector3d(0, 0, 1)};

@@ -60,9 +60,25 @@ public:
     /// no axis of either box separates from it. Rising indices.
     std::vector<std::uint32_t> faces_near(const OrientedBox& box, double within_m) const;
 
+    /// True when the solid box and some triangle have a point in common; touching counts. With
+    /// `way` the solid is everything that the box passes while it moves along it without turning.
+    ///
+    /// Exact up to the rounding of double precision (box_meets_triangle): triangles are sorted out
+    /// four at a time in single precision with a margin for its rounding. Ends at the first hit.
+    /// A box within the surface that touches no triangle does not meet it: see surrounds().
+    /// @param way  [m] in the frame of the mesh
+    bool meets_box(const OrientedBox& box,
+                   const Eigen::Vector3d& way = Eigen::Vector3d::Zero()) const;
+
+    /// True when a box that meets no triangle lies inside the closed surface.
+    bool surrounds(const OrientedBox& box) const;
+
     /// True when the point [m] lies inside the closed surface: majority of three ray directions,
-    /// each judged by the side of the first face that it meets.
+    /// each judged by the side of the first face that it meets; two that agree suffice.
     bool contains(const Eigen::Vector3d& point) const;
+
+    /// [m] Around all triangles, padded by the tolerance; empty without triangles.
+    const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
 private:
     /// The up to four triangles of a leaf side by side, in the tree's units.
@@ -77,6 +93,9 @@ private:
     void add_pack(std::uint32_t& leaf);
     static unsigned near_lanes(const Ray& ray, const Pack& pack, float reach, float margin);
     bool pack_blocks(const Ray& ray, const Pack& pack, float reach) const;
+    static unsigned near_lanes(const Vicinity& vicinity, const Pack& pack);
+    template <class Visit>
+    bool visit_near(const Vicinity& vicinity, Visit&& visit) const;
     bool meets(const Ray& ray, std::uint32_t place, double reach, Hit& hit) const;
     template <bool kNearestFirst, class Visit>
     void traverse(const Ray& ray, double& reach, Visit&& visit) const;

@@ -17,6 +17,8 @@ struct ManipulabilityConfig {
     double preshape_margin_m = 0.010;     ///< [m] gap beside each pad while it approaches; halved
     std::uint32_t preshape_halvings = 2;  ///< so often, where the wider hand does not fit
     double closing_tolerance_m = 0.0005;  ///< [m] before the contact the closing check ends
+    double release_m =
+        0.002;  ///< [m] of the retreat that the object has to come off its neighbours
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
@@ -24,11 +26,12 @@ struct ManipulabilityConfig {
         visit("preshape_margin_m", self.preshape_margin_m, 1e-4, 0.5);
         visit("preshape_halvings", self.preshape_halvings, 0u, 10u);
         visit("closing_tolerance_m", self.closing_tolerance_m, 1e-5, 0.01);
+        visit("release_m", self.release_m, 0.0, 0.1);
     }
 };
 
 /// The part of the motion that is not free.
-enum class MotionBlock : std::uint8_t { kTooWide, kFinger, kPalm, kApproach, kClosing };
+enum class MotionBlock : std::uint8_t { kTooWide, kFinger, kPalm, kApproach, kClosing, kRetreat };
 
 /// Whether the hand can get there.
 struct MotionCheck {
@@ -44,9 +47,9 @@ struct MotionCheck {
 
 /// Checks approach at the pre-shape opening, the grasp pose, and the closing of the fingers.
 ///
-/// The approach is straight along Gz and closing runs along Gx, both along axes of the parts'
-/// boxes, so the swept volumes are boxes and the check is exact for parallel jaws. Linkage fingers
-/// that travel forward while closing are bounded by the box around both ends of their travel.
+/// What a part passes is exactly the convex hull of both ends of a straight way, so nothing is
+/// sampled: the approach is straight along Gz, closing along Gx. Linkage fingers travel forward
+/// while they close: straight from row to row of their table.
 ///
 /// Source: Lei & Wisse 2016, Sec. II-F, Fig. 21.
 /// Deviation: the paper compares the hand's length and width with those of the gap.
@@ -66,6 +69,18 @@ MotionCheck check_pose(const CollisionWorld& world, const Gripper& gripper,
                        const Eigen::Isometry3d& X_WG, double contact_width_m,
                        const ManipulabilityConfig& config);
 
+/// Checks the way out: the closed hand together with the object that it holds, straight along the
+/// support plane's normal, without a plane along -Gz, by approach_distance_m. The hand must meet
+/// neither obstacles nor plane nor keep-out boxes, the object no obstacle, once it has come off by
+/// release_m: it may lean on what stands beside it. From the plane both only move away.
+///
+/// @return a block kRetreat ("retreat_hits_obstacle", ...), or none
+/// Complexity O(parts log F) and, where obstacles are near the object's way, O(faces there log F).
+/// Pure.
+MotionCheck check_retreat(const CollisionWorld& world, const Gripper& gripper,
+                          const Eigen::Isometry3d& X_WG, double contact_width_m,
+                          const ManipulabilityConfig& config);
+
 /// [m] The narrowest gap beside each pad that a pre-shape leaves.
 double least_preshape_margin_m(const ManipulabilityConfig& config);
 
@@ -73,5 +88,18 @@ double least_preshape_margin_m(const ManipulabilityConfig& config);
 std::vector<OrientedBox> swept_approach(const Gripper& gripper, const Eigen::Isometry3d& X_WG,
                                         double contact_width_m, double open_width_m,
                                         double approach_distance_m);
+
+/// How a hand approaches.
+struct ApproachShape {
+    double contact_width_m = 0.0, open_width_m = 0.0;  ///< [m] pad gaps
+    double distance_m = 0.0;                           ///< [m] straight along Gz
+};
+
+/// Least distance of the hand from pre-grasp to grasp to anything, and which part comes nearest: of
+/// swept_approach(), or of the gripper's convex parts where it has some.
+/// @param most_m  [m] > 0: distances beyond it are reported as most_m
+Clearance approach_clearance(const CollisionWorld& world, const Gripper& gripper,
+                             const Eigen::Isometry3d& X_WG, const ApproachShape& shape,
+                             double most_m);
 
 }  // namespace graspd
