@@ -32,11 +32,6 @@ PlanStatus status_of(PlanErrorCode code) {
     }
 }
 
-double mass_of(const PlanRequest& request, const PreparedObject& object) {
-    return request.options.mass_kg.value_or(
-        std::clamp(kDensity_kg_m3 * object.volume_m3, kLeastMass_kg, kGreatestMass_kg));
-}
-
 std::string strategy_of(const std::vector<Grasp>& grasps) {
     if (grasps.empty()) return "";
     const auto whole = std::ranges::count(grasps, kWholeObject, &Grasp::source);
@@ -100,6 +95,11 @@ std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O
     return to_hex(hash);
 }
 
+double object_mass_kg(const PlanOptions& options, double volume_m3) {
+    return options.mass_kg.value_or(
+        std::clamp(kDensity_kg_m3 * volume_m3, kLeastMass_kg, kGreatestMass_kg));
+}
+
 PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
                const StopQuery& stop_requested) {
     Answer answer;
@@ -125,9 +125,14 @@ PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
     std::vector<GradedGrasp> grasps;
     bool stopped = false;
     for (const Gripper& gripper : request.grippers) {
-        const Judgement judgement{
-            request, object.value(), surroundings.world(), gripper,
-            config,  X_FP,           center_of_mass_P,     mass_of(request, object.value())};
+        const Judgement judgement{request,
+                                  object.value(),
+                                  surroundings.world(),
+                                  gripper,
+                                  config,
+                                  X_FP,
+                                  center_of_mass_P,
+                                  object_mass_kg(request.options, object.value().volume_m3)};
         auto found = search_grasps(judgement, stop_requested, answer.log);
         if (!found) return answer.refuse(found.error());
         std::ranges::move(found.value().grasps, std::back_inserter(grasps));
