@@ -21,7 +21,8 @@ using Eigen::Vector3d;
 
 constexpr double kFieldOfView_rad = std::numbers::pi / 4.0;  // MuJoCo's default, of the height
 constexpr double kElevation_deg = -20.0;                     // the camera looks down a little
-constexpr double kUnderAll_m = 0.005;                        // the floor, below everything
+constexpr double kFilled = 0.8;        // closer than the sphere around all, whose corners are empty
+constexpr double kUnderAll_m = 0.005;  // the floor, below everything
 
 /// Numbers as text, as many digits as a float has.
 class NumberText {
@@ -67,20 +68,27 @@ std::string part_text(const GripperPart& part, const char* colour) {
 
 /// Mocap bodies: the object, then palm, left and right finger.
 std::string scene_text(const TriangleMesh& mesh, const std::vector<GripperPart>& parts,
-                       double floor_m, const RenderConfig& config) {
+                       const Eigen::AlignedBox3d& bounds, const RenderConfig& config) {
     const std::string size = "offwidth=\"" + std::to_string(config.width) + "\" offheight=\"" +
                              std::to_string(config.height) + "\"";
+    const Vector3d light = Vector3d(-0.3, 0.4, -1.0).normalized();
     const char *dark = ".35 .37 .42 1", *warm = ".86 .62 .20 1";
-    return "<mujoco><visual><global " + size + "/><headlight ambient=\".35 .35 .35\" " +
-           "diffuse=\".35 .35 .35\" specular=\".1 .1 .1\"/><map znear=\".02\" zfar=\"20\"/>" +
+    return "<mujoco><statistic extent=\"" +
+           (NumberText() << 0.5 * bounds.diagonal().norm()).text() + "\" center=\"" +
+           (NumberText() << bounds.center()).text() + "\"/><visual><global " + size +
+           "/><headlight ambient=\".35 .35 .35\" " +
+           "diffuse=\".35 .35 .35\" specular=\".1 .1 .1\"/><map znear=\".02\" zfar=\"50\"/>" +
            "</visual><asset><texture name=\"sky\" type=\"skybox\" builtin=\"flat\" " +
            "rgb1=\"1 1 1\" rgb2=\"1 1 1\" width=\"8\" height=\"48\"/>" +
            "<texture name=\"floor\" type=\"2d\" builtin=\"checker\" rgb1=\".93 .93 .93\" " +
            "rgb2=\".85 .85 .85\" width=\"64\" height=\"64\"/><material name=\"floor\" " +
            "texture=\"floor\" texrepeat=\"20 20\" texuniform=\"true\" specular=\"0\"/>" +
-           skin_text(mesh) + "</asset><worldbody><light directional=\"true\" pos=\"0 0 3\" " +
-           "dir=\"-.3 .4 -1\" diffuse=\".5 .5 .5\"/><geom type=\"plane\" size=\"2 2 .1\" " +
-           "material=\"floor\" pos=\"0 0 " + (NumberText() << floor_m).text() + "\"/>" +
+           skin_text(mesh) + "</asset><worldbody><light directional=\"true\" pos=\"" +
+           (NumberText() << bounds.center() - bounds.diagonal().norm() * light).text() +
+           "\" dir=\"" + (NumberText() << light).text() +
+           "\" diffuse=\".5 .5 .5\"/><geom type=\"plane\" size=\"0 0 .1\" " +
+           "material=\"floor\" pos=\"0 0 " +
+           (NumberText() << bounds.min().z() - kUnderAll_m).text() + "\"/>" +
            "<body name=\"object\" mocap=\"true\"><geom type=\"sphere\" size=\".001\" " +
            "rgba=\"0 0 0 0\"/></body>" + part_text(parts[0], dark) + part_text(parts[1], warm) +
            part_text(parts[2], warm) + "</worldbody></mujoco>";
@@ -179,7 +187,7 @@ void place(mjData& data, const std::array<Isometry3d, 4>& poses) {
 void aim(mjvCamera& camera, const Eigen::AlignedBox3d& bounds, const Vector3d& forward) {
     const Vector3d center = bounds.center();
     std::copy(center.data(), center.data() + 3, camera.lookat);
-    camera.distance = 0.5 * bounds.diagonal().norm() / std::sin(0.5 * kFieldOfView_rad);
+    camera.distance = kFilled * 0.5 * bounds.diagonal().norm() / std::sin(0.5 * kFieldOfView_rad);
     camera.azimuth = std::atan2(forward.y(), forward.x()) * 180.0 / std::numbers::pi;
     camera.elevation = kElevation_deg;
 }
@@ -205,8 +213,7 @@ std::vector<Image> draw(const TriangleMesh& mesh_F, const Stage& stage,
     Eigen::AlignedBox3d bounds;
     for (const SimulatedFrame& frame : frames) bounds.extend(stage.bounds(frame, mesh_F));
     const simulate_detail::OffscreenContext gl;
-    Drawing drawing(scene_text(mesh_F, stage.parts(frames.front().opening_m),
-                               bounds.min().z() - kUnderAll_m, config));
+    Drawing drawing(scene_text(mesh_F, stage.parts(frames.front().opening_m), bounds, config));
     aim(drawing.camera, bounds, stage.view(frames.front()));
     std::vector<Image> images;
     for (const SimulatedFrame& frame : frames) {

@@ -37,15 +37,15 @@ const char* to_string(SimulationPhase phase);
 
 /// Forces, motion and limits of one execution.
 struct SimulationConfig {
-    double friction = 0.6;              ///< Coulomb coefficient, > 0
-    double torsion_m = 0.002;           ///< [m] torque about a contact's normal over its force
-    double grip_force_N = 20.0;         ///< [N] per finger, > 0
-    double mass_kg = 0.1;               ///< [kg] > 0
-    double approach_slack_m = 0.0005;   ///< [m] that the open hand may be too large by
-    double lift_m = 0.2;                ///< [m]
-    double shake_m = 0.012;             ///< [m] along each axis, 5 Hz under a rising and falling
-                                        ///< envelope
-    double shake_rad = 0.35;            ///< [rad] the same about each axis, 2.5 Hz
+    double friction = 0.6;             ///< Coulomb coefficient, > 0
+    double torsion_m = 0.002;          ///< [m] torque about a contact's normal over its force
+    double grip_force_N = 20.0;        ///< [N] per finger, > 0
+    double mass_kg = 0.1;              ///< [kg] > 0
+    double approach_slack_m = 0.0005;  ///< [m] that the open hand may be too large by
+    double lift_m = 0.2;               ///< [m]
+    // Two periods under an envelope that rises and falls: at most 10.4 m/s2 and 91 rad/s2.
+    double shake_m = 0.010;             ///< [m] along each axis of G, 5 Hz
+    double shake_rad = 0.35;            ///< [rad] about each axis of G, 2.5 Hz
     double most_shift_m = 0.020;        ///< [m] more is kSlips
     double most_turn_rad = 0.52359878;  ///< [rad] 30 degrees; more is kSlips
     double time_step_s = 0.002;         ///< [s]
