@@ -105,14 +105,9 @@ void EdgeContacts::meet(Edge& edge, const Corners& triangle, const Vector3d& nor
     const auto pair = nearest_points(edge.middle - along, edge.middle + along, triangle);
     const Vector3d way = pair.on_triangle - pair.on_segment;
     const double distance = way.norm();
-    if (!(distance > 1e-9 && distance < rounding_m_)) return;
-    const Vector3d out = way / distance;
-    if (normal.dot(out) >= 0.0) return;
-    // A corner ends three edges; the first axis' edge speaks for it.
-    if (std::abs(out[edge.axis]) >= kFaceLean && edge.axis != 0) return;
-    for (const Eigen::Index across : {(edge.axis + 1) % 3, (edge.axis + 2) % 3}) {
-        if (out[across] * std::copysign(1.0, edge.middle[across]) < kFaceLean) return;
-    }
+    if (!(distance < rounding_m_)) return;
+    const Vector3d out = distance > 1e-9 ? Vector3d(way / distance) : Vector3d::Zero();
+    if (normal.dot(out) > 0.0) return;
     const double share = 0.5 + 0.5 * pair.on_segment[edge.axis] / core_[edge.axis];
     const auto count = edge.cells.size();
     const auto cell = std::min(count - 1, static_cast<std::size_t>(share * double(count)));
@@ -122,10 +117,22 @@ void EdgeContacts::meet(Edge& edge, const Corners& triangle, const Vector3d& nor
     }
 }
 
+/// A piece of an edge has a contact if the nearest point of the whole surface lies off the edge.
+/// Where it lies before a face, or on the core, the faces have it; and a triangle beside that point
+/// has an own nearest point, which must not count: hence the choice first, the question afterwards.
+bool EdgeContacts::belongs(const Edge& edge, const Vector3d& out) {
+    // A corner ends three edges; the first axis' edge speaks for it.
+    if (std::abs(out[edge.axis]) >= kFaceLean && edge.axis != 0) return false;
+    for (const Eigen::Index across : {(edge.axis + 1) % 3, (edge.axis + 2) % 3}) {
+        if (out[across] * std::copysign(1.0, edge.middle[across]) < kFaceLean) return false;
+    }
+    return true;
+}
+
 void EdgeContacts::take(std::vector<BoxContact>& contacts) const {
     for (const Edge& edge : edges_) {
         for (const BoxContact& contact : edge.cells) {
-            if (contact.depth_m > 0.0) contacts.push_back(contact);
+            if (contact.depth_m > 0.0 && belongs(edge, contact.normal)) contacts.push_back(contact);
         }
     }
 }

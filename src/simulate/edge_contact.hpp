@@ -40,6 +40,7 @@ private:
         Eigen::Vector3d middle;         ///< the two signs across `axis` are the edge's side
         std::vector<BoxContact> cells;  ///< depth 0: none
     };
+    static bool belongs(const Edge& edge, const Eigen::Vector3d& out);
     void meet(Edge& edge, const Corners& triangle, const Eigen::Vector3d& normal) const;
 
     Eigen::Vector3d core_;

@@ -21,8 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double kFieldOfView_rad = std::numbers::pi / 4.0;  // MuJoCo's default, of the height
 constexpr double kElevation_deg = -20.0;                     // the camera looks down a little
-constexpr double kFilled = 0.8;        // closer than the sphere around all, whose corners are empty
-constexpr double kUnderAll_m = 0.005;  // the floor, below everything
+constexpr double kUnderAll_m = 0.005;                        // the floor, below everything
 
 /// Numbers as text, as many digits as a float has.
 class NumberText {
@@ -187,7 +186,7 @@ void place(mjData& data, const std::array<Isometry3d, 4>& poses) {
 void aim(mjvCamera& camera, const Eigen::AlignedBox3d& bounds, const Vector3d& forward) {
     const Vector3d center = bounds.center();
     std::copy(center.data(), center.data() + 3, camera.lookat);
-    camera.distance = kFilled * 0.5 * bounds.diagonal().norm() / std::sin(0.5 * kFieldOfView_rad);
+    camera.distance = 0.5 * bounds.diagonal().norm() / std::sin(0.5 * kFieldOfView_rad);
     camera.azimuth = std::atan2(forward.y(), forward.x()) * 180.0 / std::numbers::pi;
     camera.elevation = kElevation_deg;
 }

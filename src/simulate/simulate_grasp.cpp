@@ -221,7 +221,7 @@ private:
             result_.shift_m <= config_.most_shift_m && result_.turn_rad <= config_.most_turn_rad;
         end(still ? GraspVerdict::kHolds : GraspVerdict::kSlips,
             still ? "both fingers hold it through lift and shake"
-                  : "both fingers hold it, but it moved too far in the hand");
+                  : "both fingers hold it, but it slipped");
         return still;
     }
 
