@@ -105,8 +105,10 @@ std::string finger_text(const GripperPart& finger, const char* name, double side
     const std::string inertia = text_of(Vector3d::Constant(1e-4 * kFingerMass_kg));
     return "<body><inertial pos=\"0 0 0\" mass=\"" + mass + "\" diaginertia=\"" + inertia +
            "\"/><joint name=\"" + name + "\" type=\"slide\" axis=\"" + text_of({side, 0.0, 0.0}) +
-           "\" limited=\"true\" range=\"0 " + text_of({travel_m}) + "\" damping=\"" +
-           text_of({kFingerDamping}) + "\"/>" + box_text(finger.box_G) + "</body>";
+           "\" limited=\"true\" solreflimit=\"0.004 1\" solimplimit=\"0.95 0.99 0.0005\" "
+           "range=\"0 " +
+           text_of({travel_m}) + "\" damping=\"" + text_of({kFingerDamping}) + "\"/>" +
+           box_text(finger.box_G) + "</body>";
 }
 
 /// The model; what it does not say is MuJoCo's default.
@@ -123,7 +125,7 @@ std::string model_text(const SceneParts& parts, const SimulationConfig& config, 
            "<default><geom condim=\"4\" friction=\"" +
            text_of({config.friction, config.torsion_m, 1e-4}) +
            "\" solref=\"0.004 1\" solimp=\"0.95 0.99 0.0005 0.5 2\"/>" +
-           "<equality solref=\"0.004 1\"/><default class=\"hand\">" +
+           "<equality solref=\"0.004 1\" solimp=\"0.95 0.99 0.0005\"/><default class=\"hand\">" +
            "<geom contype=\"1\" conaffinity=\"0\"/></default></default><worldbody><body " +
            pose_text(parts.X_FG) + "><freejoint/><inertial pos=\"0 0 0\" mass=\"" + base +
            "\" diaginertia=\"" + base + base + base + "\"/>" + box_text(boxes[0].box_G) +

@@ -58,7 +58,7 @@ TEST(BoxContacts, NoneBeforeItTouches) {
 // sqrt(2) (half - rounding) + rounding from its middle, and the normal is the flat side's.
 TEST(BoxContacts, EdgeOnFlatSideHasTheSidesNormal) {
     const Surface block(test::box({0.1, 0.1, 0.1}));
-    constexpr double kHalf = 0.01, kRounding = 0.002, kDepth = 0.0002;
+    constexpr double kHalf = 0.01, kRounding = BoxContactConfig{}.rounding_m, kDepth = 0.0002;
     const double reach = std::numbers::sqrt2 * (kHalf - kRounding) + kRounding;
     OrientedBox box = box_at({0, 0, 0.05 + reach - kDepth}, Vector3d::Constant(kHalf));
     box.pose.rotate(Eigen::AngleAxisd(std::numbers::pi / 4.0, Vector3d::UnitY()));
@@ -73,7 +73,7 @@ TEST(BoxContacts, EdgeOnFlatSideHasTheSidesNormal) {
 // Turned so that a corner points down: one contact, though three edges end there.
 TEST(BoxContacts, CornerOnFlatSideIsOneContact) {
     const Surface block(test::box({0.1, 0.1, 0.1}));
-    constexpr double kHalf = 0.01, kRounding = 0.002, kDepth = 0.0002;
+    constexpr double kHalf = 0.01, kRounding = BoxContactConfig{}.rounding_m, kDepth = 0.0002;
     const double reach = std::numbers::sqrt3 * (kHalf - kRounding) + kRounding;
     OrientedBox box = box_at({0.01, 0.02, 0.05 + reach - kDepth}, Vector3d::Constant(kHalf));
     box.pose.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d(1, 1, 1), -Vector3d::UnitZ())

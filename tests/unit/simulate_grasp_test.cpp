@@ -62,6 +62,17 @@ TEST(SimulateGrasp, TooLittleFrictionDropsInTheLift) {
     EXPECT_EQ(result.phase, SimulationPhase::kLift);
 }
 
+// A plate of 10 mm falls out; the fingers then close at 0.2 m/s, so that after the 0.05 s that pass
+// before it counts as lost they are where the pads meet, and not beyond.
+TEST(SimulateGrasp, FingersStopAtTheirLeastWidth) {
+    SimulationConfig config;
+    config.friction = 0.02;
+    const auto result =
+        run(test::box({0.01, 0.04, 0.04}), from_above(Vector3d::Zero(), 0.01, 0.03), config);
+    EXPECT_EQ(result.verdict, GraspVerdict::kDropped);
+    EXPECT_NEAR(result.width_m, 0.0, 0.0005);
+}
+
 // The same by force: 0.8 N a finger at friction 0.6 carries 0.96 N.
 TEST(SimulateGrasp, TooLittleForceDropsInTheLift) {
     SimulationConfig config;
@@ -98,12 +109,15 @@ TEST(SimulateGrasp, PlaneIsMet) {
     EXPECT_NE(result.detail.find("plane"), std::string::npos) << result.detail;
 }
 
-// Across a cup's wall one finger stands in the cavity, which the cup's hull would fill.
+// Across a cup's wall one finger stands in the cavity, which the cup's hull would fill. Its pad is
+// 20 mm wide with edges rounded by 1 mm: they touch the cavity of radius 36 mm when their middles,
+// 9 mm aside, are 35 mm from the axis, the pad then at sqrt(35^2 - 9^2) + 1 = 34.82 mm. The other
+// pad is at 40 mm. Both press in by less than 0.1 mm.
 TEST(SimulateGrasp, FingerInACupsCavityHolds) {
     const auto result =
         run(test::cup(0.04, 0.1, 0.004, 4000), from_above({0.038, 0, 0.09}, 0.004, 0.024));
     EXPECT_EQ(result.verdict, GraspVerdict::kHolds) << result.detail;
-    EXPECT_NEAR(result.width_m, 0.004, 0.001);
+    EXPECT_NEAR(result.width_m, 0.04 - 0.03482, 0.0002);
 }
 
 // A bar held at its end: its weight turns it with 0.4 x 9.81 x 0.11 = 0.43 Nm, and what pads of

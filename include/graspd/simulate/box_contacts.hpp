@@ -19,7 +19,7 @@ struct BoxContact {
 
 /// How a box is rounded and how finely a patch is divided.
 struct BoxContactConfig {
-    double rounding_m = 0.002;  ///< [m] of edges and corners; at most half the least half extent
+    double rounding_m = 0.001;  ///< [m] of edges and corners; at most half the least half extent
     double cell_m = 0.006;      ///< [m] one contact for each cell of a face
     std::size_t most = 48;      ///< the deepest ones are kept
 };

@@ -43,9 +43,10 @@ struct SimulationConfig {
     double mass_kg = 0.1;              ///< [kg] > 0
     double approach_slack_m = 0.0005;  ///< [m] that the open hand may be too large by
     double lift_m = 0.2;               ///< [m]
-    // Two periods under an envelope that rises and falls: at most 10.4 m/s2 and 91 rad/s2.
-    double shake_m = 0.010;             ///< [m] along each axis of G, 5 Hz
-    double shake_rad = 0.35;            ///< [rad] about each axis of G, 2.5 Hz
+    // Two periods under an envelope that rises and falls, so that 0.87 of it is reached: 10 mm and
+    // 20 degrees, 12.4 m/s2 and 104 rad/s2.
+    double shake_m = 0.012;             ///< [m] along each axis of G, 5 Hz
+    double shake_rad = 0.40;            ///< [rad] about each axis of G, 2.5 Hz
     double most_shift_m = 0.020;        ///< [m] more is kSlips
     double most_turn_rad = 0.52359878;  ///< [rad] 30 degrees; more is kSlips
     double time_step_s = 0.002;         ///< [s]
