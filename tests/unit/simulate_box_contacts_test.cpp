@@ -101,10 +101,12 @@ TEST(BoxContacts, FingerInCavityTouchesOnlyTheWall) {
     }
 }
 
-// Behind a wall of 1 mm stands the other side of it: only the near side counts.
+// A wall of 0.1 mm that is pressed in by 0.2 mm lies wholly in the box: only its near side counts,
+// so that it is pushed back the way it came with its full depth.
 TEST(BoxContacts, ThinWallHasOneSide) {
-    const Surface sheet(test::box({0.001, 0.1, 0.1}));
-    const auto contacts = sheet.touch(box_at({0.0005 + 0.005 - 0.0002, 0, 0}, {0.005, 0.01, 0.01}));
+    const Surface sheet(test::box({0.0001, 0.1, 0.1}));
+    const auto contacts =
+        sheet.touch(box_at({0.00005 + 0.005 - 0.0002, 0, 0}, {0.005, 0.01, 0.01}));
     ASSERT_FALSE(contacts.empty());
     for (const BoxContact& contact : contacts) {
         EXPECT_NEAR(contact.normal.x(), -1.0, 1e-12);
