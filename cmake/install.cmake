@@ -1,11 +1,12 @@
 # Install and export: find_package(graspd) gives graspd::core and the program graspd::graspctl, and
-# graspd::msgs, graspd::dds and the daemon graspd::graspd when they were built. The DDS half has an
-# export set of its own, so that a user of graspd::core needs no Fast DDS.
+# graspd::msgs, graspd::dds and the daemon graspd::graspd when they were built; graspd::simulate when
+# asked for. The two have export sets of their own, so that a user of graspd::core needs neither Fast
+# DDS nor MuJoCo.
 include(CMakePackageConfigHelpers)
 
 set(graspd_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/graspd)
 
-foreach(library graspd_core graspd_dds)
+foreach(library graspd_core graspd_dds graspd_simulate)
   if(TARGET ${library})
     set_target_properties(${library} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
   endif()
@@ -32,6 +33,10 @@ install(EXPORT graspdTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir}
 if(TARGET graspd_msgs)
   graspd_install(graspdDdsTargets graspd_msgs graspd_dds graspd)
   install(EXPORT graspdDdsTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir})
+endif()
+if(TARGET graspd_simulate)
+  graspd_install(graspdSimulateTargets graspd_simulate)
+  install(EXPORT graspdSimulateTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir})
 endif()
 
 # The programs look for ../share/graspd/profiles from their own place.

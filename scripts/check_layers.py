@@ -20,7 +20,8 @@ ALLOWED = {
     "config": {"base", "mesh"},  # mesh: a URDF's collision meshes
     "planner": {"base", *STAGES},
     "dds": {"base", "planner"},
-    "cli": {"base", *STAGES, "planner", "config", "dds"},
+    "simulate": {"base", "collision", "planner"},
+    "cli": {"base", *STAGES, "planner", "config", "dds", "simulate"},
     "server": {"base", *STAGES, "planner", "config", "dds"},
     "examples": {"base", *STAGES, "planner", "config", "dds"},
 }

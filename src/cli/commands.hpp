@@ -17,12 +17,24 @@ struct DdsArguments {
     std::uint32_t retries = 3;          ///< on silence and on OVERLOADED
 };
 
+/// What `simulate` does with the plan.
+struct SimulateArguments {
+    std::uint32_t rank = 1;  ///< of the grasp that is executed
+    std::string frames;      ///< directory for frame_0000.png and so on; empty: none
+    std::string gif;         ///< file for an animation; empty: none
+};
+
 // One function a subcommand; each returns the exit code (exit_code.hpp). Results go to standard
 // output or --out, everything else to standard error.
 
 /// Plans in this process.
 int run_plan(const PlanArguments& plan, const std::string& config_file,
              const OutputArguments& output);
+
+/// Plans in this process, then executes one grasp by physics. The exit code is kExitNoGrasp when
+/// it does not hold, and kExitUsage in a build without the simulation.
+int run_simulate(const PlanArguments& plan, const std::string& config_file,
+                 const SimulateArguments& simulate, const OutputArguments& output);
 
 /// Has a daemon plan over DDS. Only in builds with GRASPD_BUILD_DDS.
 int run_request(const PlanArguments& plan, const DdsArguments& dds, const OutputArguments& output);

@@ -15,6 +15,7 @@ struct Arguments {
     PlanArguments plan;
     OutputArguments output;
     DdsArguments dds;
+    SimulateArguments simulate;
     std::string units;
     std::string config_file;
     std::string method;  ///< of `concavity`; empty: as configured
@@ -63,6 +64,26 @@ void add_plan(CLI::App& command, Arguments& to) {
     command.add_option("--report", to.output.report, "directory for reply.json and reply.txt");
 }
 
+/// What plans in this process takes.
+void add_plan_here(CLI::App& command, Arguments& to) {
+    add_plan(command, to);
+    add_config(command, to);
+    command.add_option("--concavity", to.plan.concavity, "how concavity is computed")
+        ->check(CLI::IsMember(kMethods));
+}
+
+void add_simulate(CLI::App& app, Arguments& to, std::function<int()>& run) {
+    auto* simulate = app.add_subcommand("simulate", "plan, then execute a grasp by physics");
+    add_plan_here(*simulate, to);
+    simulate->add_option("--rank", to.simulate.rank, "which grasp; default: the best")
+        ->check(CLI::Range(1u, 1000000u));
+    simulate->add_option("--frames", to.simulate.frames, "directory for pictures (PNG)");
+    simulate->add_option("--gif", to.simulate.gif, "file for an animation");
+    simulate->callback([&] {
+        run = [&] { return run_simulate(to.plan, to.config_file, to.simulate, to.output); };
+    });
+}
+
 #ifdef GRASPD_WITH_DDS
 void add_request(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* request = app.add_subcommand("request", "have a running graspd plan, over DDS");
@@ -79,12 +100,9 @@ void add_request(CLI::App& app, Arguments& to, std::function<int()>& run) {
 /// Adds the subcommands; each sets `run` to what it stands for.
 void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* plan = app.add_subcommand("plan", "plan grasps in this process");
-    add_plan(*plan, to);
-    add_config(*plan, to);
-    plan->add_option("--concavity", to.plan.concavity, "how concavity is computed")
-        ->check(CLI::IsMember(kMethods));
+    add_plan_here(*plan, to);
     plan->callback([&] { run = [&] { return run_plan(to.plan, to.config_file, to.output); }; });
-
+    add_simulate(app, to, run);
 #ifdef GRASPD_WITH_DDS
     add_request(app, to, run);
 #endif

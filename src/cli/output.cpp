@@ -27,6 +27,16 @@ std::optional<PlanError> write_output(const std::string& text, const std::string
     return PlanError{PlanErrorCode::kInternal, "standard output cannot be written"};
 }
 
+std::optional<PlanError> write_report(const std::string& json, const std::string& table,
+                                      const std::string& directory) {
+    if (directory.empty()) return std::nullopt;
+    const std::filesystem::path place = directory;
+    std::error_code ignored;  // a directory that is not there shows when the file is written
+    std::filesystem::create_directories(place, ignored);
+    if (auto error = write_file(place / "reply.json", json)) return error;
+    return write_file(place / "reply.txt", table);
+}
+
 int fail(const PlanError& error) {
     std::cerr << "graspctl: " << error.detail << '\n';
     return exit_code(error);
@@ -36,13 +46,7 @@ int finish(const PlanReply& reply, std::span<const Gripper> grippers, const Resu
            const OutputArguments& arguments) {
     const std::string json = write_json(reply, grippers, origin);
     const std::string table = write_table(reply, grippers, origin);
-    if (!arguments.report.empty()) {
-        const std::filesystem::path directory = arguments.report;
-        std::error_code ignored;  // a directory that is not there shows when the file is written
-        std::filesystem::create_directories(directory, ignored);
-        if (auto error = write_file(directory / "reply.json", json)) return fail(*error);
-        if (auto error = write_file(directory / "reply.txt", table)) return fail(*error);
-    }
+    if (auto error = write_report(json, table, arguments.report)) return fail(*error);
     const bool as_json = arguments.format == "json";
     if (auto error = write_output(as_json ? json : table, arguments.out)) return fail(*error);
     if (exit_code(reply) != kExitOk) {

@@ -12,6 +12,11 @@ namespace graspd::cli {
 /// @return nothing, or kInternal naming the file that could not be written
 std::optional<PlanError> write_output(const std::string& text, const std::string& file);
 
+/// Writes the files of --report, if that is given: reply.json, reply.txt.
+/// @return nothing, or kInternal naming the file that could not be written
+std::optional<PlanError> write_report(const std::string& json, const std::string& table,
+                                      const std::string& directory);
+
 /// Prints an error to standard error. @return its exit code
 int fail(const PlanError& error);
 

@@ -25,11 +25,6 @@ std::optional<PlanError> check_settings(const PlannerConfig& config) {
     return validate<PlannerConfig>(config);
 }
 
-double mass_of(const PlanRequest& request, const PreparedObject& object) {
-    return request.options.mass_kg.value_or(
-        std::clamp(kDensity_kg_m3 * object.volume_m3, kLeastMass_kg, kGreatestMass_kg));
-}
-
 /// Gravity points against the support plane's normal; without one along -Fz (REP 103).
 Eigen::Vector3d down_F(const PlanRequest& request) {
     return request.support_plane ? Eigen::Vector3d(-request.support_plane->normal_F)
@@ -54,7 +49,7 @@ struct Scene {
               request.options.center_of_mass_O
                   ? Eigen::Vector3d(prepared.X_OP.inverse() * *request.options.center_of_mass_O)
                   : prepared.center_of_mass_P),
-          mass_kg(mass_of(request, prepared)),
+          mass_kg(object_mass_kg(request.options, prepared.volume_m3)),
           down_P(X_FP.linear().transpose() * down_F(request)) {}
 };
 
@@ -129,6 +124,11 @@ std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O
         add(std::get<PointCloud>(object_O).points);
     }
     return to_hex(hash);
+}
+
+double object_mass_kg(const PlanOptions& options, double volume_m3) {
+    return options.mass_kg.value_or(
+        std::clamp(kDensity_kg_m3 * volume_m3, kLeastMass_kg, kGreatestMass_kg));
 }
 
 PlanReply plan(const PlanRequest& request, const PlannerConfig& config,

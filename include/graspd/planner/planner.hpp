@@ -14,6 +14,10 @@ using StopQuery = std::function<bool()>;
 /// The key under which an object's geometry is known: a hash of its points and faces as received.
 std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O);
 
+/// The mass that plan() takes an object of this volume for [kg]: the request's, else that of
+/// 500 kg/m3 within [0.02, 0.5].
+double object_mass_kg(const PlanOptions& options, double volume_m3);
+
 /// Plans grasps for one object: the paper from II-A to II-F. Without a grasp, or where the request
 /// wants a suggestion, it plans again within other limits to say what would help; the object is
 /// prepared once. When it is told to stop meanwhile, the reply is the same without a suggestion.
