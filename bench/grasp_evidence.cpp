@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
                               object.X_OP,
                               object.center_of_mass_P,
                               mass_of(argc > 4 ? argv[4] : nullptr, object),
-                              -object.X_OP.linear().row(2).transpose()};
+                              Eigen::Vector3d(-object.X_OP.linear().row(2).transpose())};
     int index = 0;
     for (const auto& grasp : plan["grasps"]) {
         Rejections rejections;

@@ -56,6 +56,8 @@ void add_plan(CLI::App& command, Arguments& to) {
     command.add_option("--time-budget", to.plan.time_budget_ms, "[ms]")->check(CLI::PositiveNumber);
     command.add_option("--friction", to.plan.friction, "coefficient")->check(CLI::PositiveNumber);
     command.add_option("--up", to.plan.up, "X,Y,Z: the object stands on a plane normal to this");
+    command.add_option("--gravity", to.plan.gravity,
+                       "X,Y,Z: its direction, or none; default: against --up, else 0,0,-1");
     command.add_option("--sources", to.plan.sources, "boundary,wall,whole_object or all");
     command.add_flag("--suggest", to.plan.suggest,
                      "say what would help, also when there are grasps");

@@ -45,8 +45,8 @@ SupportPlane plane_under(const std::variant<TriangleMesh, PointCloud>& object,
 
 }  // namespace
 
-Result<Eigen::Vector3d> parse_direction(const std::string& text) {
-    const PlanError error = wrong("--up", text, "none or X,Y,Z, such as 0,0,1");
+Result<Eigen::Vector3d> parse_direction(const std::string& option, const std::string& text) {
+    const PlanError error = wrong(option, text, "none or X,Y,Z, such as 0,0,1");
     const auto parts = split(text);
     if (parts.size() != 3) return error;
     Eigen::Vector3d direction;
@@ -93,9 +93,17 @@ Result<PlanRequest> make_request(const PlanArguments& arguments,
     request.object_O = std::move(object.value().object);
     request.grippers = {std::move(gripper).value()};
     if (arguments.up != "none") {
-        const auto up = parse_direction(arguments.up);
+        const auto up = parse_direction("--up", arguments.up);
         if (!up.ok()) return up.error();
         request.support_plane = plane_under(request.object_O, up.value());
+    }
+    // A file's z is up unless somebody says otherwise.
+    const bool by_default = arguments.gravity.empty() && !request.support_plane;
+    const std::string gravity = by_default ? "0,0,-1" : arguments.gravity;
+    if (!gravity.empty() && gravity != "none") {
+        const auto down = parse_direction("--gravity", gravity);
+        if (!down.ok()) return down.error();
+        request.options.gravity_F = down.value();
     }
     request.options.max_grasps = arguments.top;
     request.options.time_budget_s = arguments.time_budget_ms * 1e-3;

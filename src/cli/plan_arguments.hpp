@@ -24,6 +24,7 @@ struct PlanArguments {
     double time_budget_ms = 10000.0;  ///< [ms]
     double friction = 0.6;
     std::string up = "none";      ///< "X,Y,Z" or "none"
+    std::string gravity;          ///< "X,Y,Z", "none", or empty: against up, else along -z
     std::string concavity;        ///< "any_angle", "tetrahedral", or empty: as configured
     std::string sources = "all";  ///< comma-separated names
     bool suggest = false;         ///< also when there are grasps
@@ -45,8 +46,9 @@ struct OutputArguments {
 Result<PlanRequest> make_request(const PlanArguments& arguments,
                                  const std::filesystem::path& profiles);
 
-/// "x,y,z" as a unit vector. @return kInvalidInput for anything else, or a zero or non-finite one
-Result<Eigen::Vector3d> parse_direction(const std::string& text);
+/// "x,y,z" as a unit vector. @return kInvalidInput, naming the option, for anything else, or a zero
+/// or non-finite one
+Result<Eigen::Vector3d> parse_direction(const std::string& option, const std::string& text);
 
 /// "boundary,wall,whole_object" or "all" as bits of GraspSource.
 Result<std::uint8_t> parse_sources(const std::string& text);

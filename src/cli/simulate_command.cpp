@@ -57,8 +57,9 @@ std::optional<PlanError> write_pictures(const TriangleMesh& mesh_F, const Proces
                                         const SimulateArguments& arguments) {
     const Grasp& grasp = plan.reply.grasps[run.rank - 1];
     RenderConfig config;
-    config.up_F = plan.request.support_plane ? plan.request.support_plane->normal_F
-                                             : Eigen::Vector3d(-grasp.X_FG.linear().col(2));
+    config.up_F = run.config.up_F.value_or(plan.request.support_plane
+                                               ? plan.request.support_plane->normal_F
+                                               : Eigen::Vector3d(-grasp.X_FG.linear().col(2)));
     const auto images =
         render_frames(mesh_F, gripper_of(plan, grasp), grasp.width_m, run.result.frames, config);
     if (!images.ok()) return images.error();
@@ -104,6 +105,7 @@ int run_simulate(const PlanArguments& arguments, const std::string& config_file,
     run.config.friction = plan.request.options.friction;
     run.config.grip_force_N = plan.request.options.grip_force_N;
     run.config.mass_kg = object_mass_kg(plan.request.options, solid.value().volume_m3);
+    if (const auto& down_F = plan.request.options.gravity_F) run.config.up_F = -*down_F;
     run.config.frame_interval_s = draws(simulate) ? kFrameInterval_s : 0.0;
     const Grasp& grasp = plan.reply.grasps[run.rank - 1];
     auto result = simulate_grasp(mesh_F, gripper_of(plan, grasp), grasp, plan.request.support_plane,

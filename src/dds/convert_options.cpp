@@ -24,6 +24,7 @@ PlanOptions read_option(const wire::PlanOptions_& in, FirstError& errors) {
     refuse_flag(in.concavity_field(), "concavity_field", errors);
     check_count(in.mass().size(), 1, "options[0].mass", errors);
     check_count(in.center_of_mass().size(), 1, "options[0].center_of_mass", errors);
+    check_count(in.gravity().size(), 1, "options[0].gravity", errors);
     check_count(in.grip_force().size(), 1, "options[0].grip_force", errors);
     PlanOptions out;
     if (in.max_grasps() > kMostGrasps) {
@@ -44,6 +45,9 @@ PlanOptions read_option(const wire::PlanOptions_& in, FirstError& errors) {
     if (!in.center_of_mass().empty()) {
         out.center_of_mass_O =
             read_finite(in.center_of_mass().front(), "options[0].center_of_mass[0]", errors);
+    }
+    if (!in.gravity().empty()) {
+        out.gravity_F = read_unit(in.gravity().front(), "options[0].gravity[0]", errors);
     }
     if (!in.grip_force().empty()) {
         out.grip_force_N =
@@ -77,6 +81,7 @@ wire::PlanOptions_ write_options(const PlanOptions& options) {
     if (options.center_of_mass_O) {
         out.center_of_mass().push_back(write_point(*options.center_of_mass_O));
     }
+    if (options.gravity_F) out.gravity().push_back(write_vector(*options.gravity_F));
     out.grip_force().push_back(options.grip_force_N);
     out.sources(options.sources);
     out.suggestion(options.want_suggestion);

@@ -5,7 +5,7 @@
 namespace graspd::dds {
 namespace {
 
-constexpr const char* kScoreKind = "uncalibrated";
+constexpr const char* kScoreKind = "calibrated";
 constexpr const char* kConvention = "tcp_z_approach_x_closing";
 constexpr std::size_t kMostNearMisses = 3;  // the bound of idl/graspd.idl
 

@@ -31,6 +31,7 @@ GraspScore score_grasp(const GraspEvidence& e, const ScoreGraspConfig& config) {
         {"weight", config.weight_weight * reserve(e.loads.slip)},
         {"torque", config.torque_weight * reserve(std::hypot(e.loads.torsion, e.loads.tilt))},
         {"contact", config.contact_weight * (2.0 * std::min(e.contact_share, 1.0) - 1.0)},
+        {"opening", config.opening_weight * std::clamp(e.opening_left, 0.0, 1.0)},
         {"clearance", config.clearance_weight * room},
     };
     double sum = 0.0;

@@ -53,6 +53,10 @@ std::optional<PlanError> check_options(const PlanOptions& options) {
         return invalid("options.center_of_mass = (", options.center_of_mass_O->transpose(),
                        ") is not finite");
     }
+    if (options.gravity_F && !(std::abs(options.gravity_F->norm() - 1.0) < 1e-3)) {
+        return invalid("options.gravity = (", options.gravity_F->transpose(),
+                       ") is not of unit length");
+    }
     return std::nullopt;
 }
 

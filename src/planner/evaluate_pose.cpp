@@ -108,7 +108,7 @@ bool Examination::move() {
 
 /// Whether the hand gets away with the object.
 bool Examination::retreat() {
-    const bool free = judge(log_.run(kManipulability, 1, [&] {
+    const bool free = judge(log_.run(kManipulability, 0, [&] {
         return check_retreat(judgement_.world_P, judgement_.gripper, grasp_.X_PG, grasp_.width_m,
                              judgement_.config.manipulability);
     }));
@@ -159,12 +159,15 @@ bool Examination::press() {
     log_.out(kPatch, 1);
     GraspEvidence& evidence = grasp_.evidence;
     const Eigen::Isometry3d X_GP = grasp_.X_PG.inverse();
+    std::optional<Eigen::Vector3d> down_G = judgement_.down_P;
+    if (down_G) down_G = X_GP.linear() * *judgement_.down_P;
     const HeldLoad load{X_GP * judgement_.center_of_mass_P,
-                        X_GP.linear() * judgement_.down_P,
+                        down_G,
                         judgement_.mass_kg,
                         judgement_.request.options.grip_force_N,
                         evidence.friction,
                         evidence.min_friction};
+    evidence.opening_left = 1.0 - grasp_.width_m / gripper.max_width_m;
     evidence.mass_kg = load.mass_kg;
     evidence.loads = load_ratios(patches.value(), load, judgement_.config.load_ratios);
     evidence.contact_share = std::min(patches.value().left.share, patches.value().right.share);

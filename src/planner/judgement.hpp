@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "graspd/base/gripper.hpp"
 #include "graspd/planner/planner_config.hpp"
 #include "prepare_object.hpp"
@@ -16,7 +18,7 @@ struct Judgement {
     Eigen::Isometry3d X_FP = Eigen::Isometry3d::Identity();
     Eigen::Vector3d center_of_mass_P = Eigen::Vector3d::Zero();  ///< [m]
     double mass_kg = 0.1;
-    Eigen::Vector3d down_P = -Eigen::Vector3d::UnitZ();  ///< unit, of gravity
+    std::optional<Eigen::Vector3d> down_P;  ///< unit, of gravity; absent: not known
 };
 
 }  // namespace graspd::planner_detail

@@ -43,11 +43,14 @@ std::optional<Touch> widest_touch(const PreparedObject& object, const Eigen::Vec
 }
 
 /// Arm of the torque about a closing line: the mean of gravity's, which is none where the centre of
-/// mass hangs straight below or stands above the line, and shaking's, which has any direction.
+/// mass hangs straight below or stands above the line, and shaking's, which has any direction;
+/// where gravity's direction is not known, that of shaking.
 double lever_m(const Judgement& judgement, const Eigen::Vector3d& place,
                const Eigen::Vector3d& closing) {
     const Eigen::Vector3d arm = judgement.center_of_mass_P - place;
-    return 0.5 * (std::abs(arm.cross(judgement.down_P).dot(closing)) + arm.cross(closing).norm());
+    const double shaken_m = arm.cross(closing).norm();
+    if (!judgement.down_P) return shaken_m;
+    return 0.5 * (std::abs(arm.cross(*judgement.down_P).dot(closing)) + shaken_m);
 }
 
 /// Closes along the axis's line alone. @return the typed reason when it is no grasp

@@ -25,10 +25,13 @@ std::optional<PlanError> check_settings(const PlannerConfig& config) {
     return validate<PlannerConfig>(config);
 }
 
-/// Gravity points against the support plane's normal; without one along -Fz (REP 103).
-Eigen::Vector3d down_F(const PlanRequest& request) {
-    return request.support_plane ? Eigen::Vector3d(-request.support_plane->normal_F)
-                                 : Eigen::Vector3d(-Eigen::Vector3d::UnitZ());
+/// Gravity's direction as far as the request tells it.
+std::optional<Eigen::Vector3d> gravity_P(const PlanRequest& request,
+                                         const Eigen::Isometry3d& X_FP) {
+    std::optional<Eigen::Vector3d> down_F = request.options.gravity_F;
+    if (!down_F && request.support_plane) down_F = -request.support_plane->normal_F;
+    if (!down_F) return std::nullopt;
+    return Eigen::Vector3d(X_FP.linear().transpose() * *down_F);
 }
 
 /// Where the object is and what it weighs: the same whatever limits are planned within.
@@ -38,7 +41,7 @@ struct Scene {
     Surroundings surroundings;
     Eigen::Vector3d center_of_mass_P;
     double mass_kg;
-    Eigen::Vector3d down_P;         ///< unit, of gravity
+    std::optional<Eigen::Vector3d> down_P;  ///< unit, of gravity
     std::vector<SeenSurface> seen;  ///< by the request's grippers, as far as they were asked
 
     Scene(const PlanRequest& request, const PreparedObject& prepared)
@@ -50,7 +53,7 @@ struct Scene {
                   ? Eigen::Vector3d(prepared.X_OP.inverse() * *request.options.center_of_mass_O)
                   : prepared.center_of_mass_P),
           mass_kg(object_mass_kg(request.options, prepared.volume_m3)),
-          down_P(X_FP.linear().transpose() * down_F(request)) {}
+          down_P(gravity_P(request, X_FP)) {}
 };
 
 /// Sections II-B to II-F (concavities, boundaries, candidates, force balance, manipulability): what

@@ -8,6 +8,8 @@
 namespace graspd::planner_detail {
 namespace {
 
+constexpr double kLeastGain = 1e-3;  // of the score: what a move must be worth
+
 /// A grasp's own pose as the axis and approach from which it is found again.
 ClosingAxis axis_at(const GradedGrasp& grasp, const Eigen::Isometry3d& X_PG) {
     ClosingAxis axis = grasp.axis;
@@ -44,7 +46,7 @@ bool refine(GradedGrasp& grasp, const Judgement& judgement) {
             StageLog untold;
             auto moved = evaluate_pose(axis_at(grasp, X_PG), {}, judgement, unused, untold);
             const double least = best ? best->score.score : grasp.score.score;
-            if (moved && moved->score.score > least) best = std::move(moved);
+            if (moved && moved->score.score > least + kLeastGain) best = std::move(moved);
         }
         if (best) {
             best->axis = grasp.axis;

@@ -76,7 +76,9 @@ public:
           gripper_(gripper),
           grasp_(grasp),
           config_(config),
-          up_F_(plane ? plane->normal_F : Vector3d(-grasp.X_FG.linear().col(2))) {
+          up_F_(config.up_F ? *config.up_F
+                : plane     ? plane->normal_F
+                            : Vector3d(-grasp.X_FG.linear().col(2))) {
         world_.object = {&mesh_, &bvh_};
         if (plane) world_.plane = HalfSpace{plane->normal_F, plane->offset_m};
     }

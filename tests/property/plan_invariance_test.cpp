@@ -128,7 +128,11 @@ PlannerConfig scaled(PlannerConfig config, double s) {
     config.manipulability.approach_distance_m *= s;
     config.manipulability.preshape_margin_m *= s;
     config.manipulability.closing_tolerance_m *= s;
+    config.manipulability.release_m *= s;
+    config.contact_patch.compression_m *= s;
+    config.load_ratios.torsion_length_m *= s;
     config.score_grasp.clearance_scale_m *= s;
+    config.search.refine_shift_m *= s;
     config.search.lever_weight_rad_m /= s;
     config.search.most_clearance_m *= s;
     return config;

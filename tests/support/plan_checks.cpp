@@ -78,7 +78,7 @@ void expect_merits(const Grasp& grasp, const PlanRequest& request, const Planner
     }
     double sum = 0.0;
     for (const ScoreTerm& term : grasp.terms) sum += term.value;
-    EXPECT_EQ(grasp.terms.size(), 7U);
+    EXPECT_EQ(grasp.terms.size(), 8U);
     EXPECT_NEAR(grasp.score, 1.0 / (1.0 + std::exp(-sum)), 1e-9);
 }
 
@@ -217,12 +217,16 @@ void expect_counts_add_up(const PlanReply& reply, const PlannerConfig& config) {
     const std::uint64_t graded = out("collision/manipulability");
     EXPECT_EQ(in("collision/manipulability"), reached + held);
     EXPECT_EQ((reached - closed) + (held - graded), fallen.by("too_wide") + fallen.by_hitting());
-    EXPECT_EQ(closed - out("grasp/local_cloud"), fallen.by("no_contact") + fallen.by("too_thin"));
+    const std::uint64_t unpressed = in("grasp/contact_patch") - out("grasp/contact_patch");
+    EXPECT_EQ(closed - out("grasp/local_cloud") + unpressed,
+              fallen.by("no_contact") + fallen.by("too_thin"));
     EXPECT_EQ(out("grasp/local_cloud") - held,
               fallen.by("contact_too_small") + fallen.by("side_not_straight") + fallen.by("slips"));
-    EXPECT_EQ(in("collision/gripper_collision"), graded);
+    EXPECT_EQ(in("grasp/contact_patch"), graded);
+    const std::uint64_t pressed = out("grasp/contact_patch");
+    EXPECT_EQ(in("collision/gripper_collision"), pressed);
     const std::uint64_t clear = out("collision/gripper_collision");
-    EXPECT_EQ(graded - clear, fallen.by("clearance"));
+    EXPECT_EQ(pressed - clear, fallen.by("clearance"));
     EXPECT_EQ(clear - reply.grasps.size(), fallen.by("duplicate") + fallen.by("surplus"));
     EXPECT_EQ(fallen.rest(), "");
 }

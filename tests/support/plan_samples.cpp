@@ -101,6 +101,7 @@ void expect_same(const PlanOptions& a, const PlanOptions& b) {
     EXPECT_EQ(a.min_clearance_m, b.min_clearance_m);
     EXPECT_EQ(a.mass_kg, b.mass_kg);
     EXPECT_EQ(a.center_of_mass_O, b.center_of_mass_O);
+    EXPECT_EQ(a.gravity_F, b.gravity_F);
     EXPECT_EQ(a.grip_force_N, b.grip_force_N);
     EXPECT_EQ(a.sources, b.sources);
     EXPECT_EQ(a.want_suggestion, b.want_suggestion);
@@ -222,6 +223,7 @@ PlanRequest full_request() {
                        .min_clearance_m = 0.002,
                        .mass_kg = 0.3,
                        .center_of_mass_O = Eigen::Vector3d(0.01, 0.02, 0.03),
+                       .gravity_F = Eigen::Vector3d(0.0, 0.6, -0.8),
                        .grip_force_N = 35.0,
                        .sources = kBoundary | kWholeObject,
                        .want_suggestion = true,

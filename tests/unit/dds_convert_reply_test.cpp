@@ -44,7 +44,7 @@ TEST(ConvertReply, EnvelopeGoesAlong) {
     EXPECT_EQ(reply.planner_id(), "planner");
     EXPECT_EQ(reply.planner_version(), "1.2.3");
     EXPECT_EQ(reply.config_hash(), "fedcba9876543210");
-    EXPECT_EQ(reply.score_kind(), "uncalibrated");
+    EXPECT_EQ(reply.score_kind(), "calibrated");
     EXPECT_EQ(reply.convention(), "tcp_z_approach_x_closing");
 }
 

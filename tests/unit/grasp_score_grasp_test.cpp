@@ -18,6 +18,7 @@ constexpr ScoreGraspConfig kWeights{.bias = 1.0,
                                     .weight_weight = 1.5,
                                     .torque_weight = 4.0,
                                     .contact_weight = 2.0,
+                                    .opening_weight = 0.4,
                                     .clearance_weight = 0.5,
                                     .clearance_scale_m = 0.01};
 
@@ -29,6 +30,7 @@ GraspEvidence plain() {
     evidence.beta_rad = std::numbers::pi / 8.0;
     evidence.loads = {0.5, 0.3, 0.4};
     evidence.contact_share = 0.5;
+    evidence.opening_left = 0.25;
     evidence.clearance_m = 0.005;
     return evidence;
 }
@@ -47,29 +49,32 @@ double score_of(const GraspEvidence& evidence) {
 
 // Half of the friction unused and half of the pads touching weigh 0; pi/8 is half of 45 degrees:
 // -0.5; friction carries the weight twice over: 1.5 ln 2; torsion 0.3 and tilt 0.4 make 0.5, so the
-// torques are carried twice over, too: 4 ln 2; clearance half of 10 mm: 0.25. Bias 1.
+// torques are carried twice over, too: 4 ln 2; a quarter of the opening left: 0.1; clearance half
+// of 10 mm: 0.25. Bias 1.
 TEST(ScoreGrasp, TermsWorkedByHand) {
     const GraspScore score = score_grasp(plain(), kWeights);
-    ASSERT_EQ(score.terms.size(), 7U);
+    ASSERT_EQ(score.terms.size(), 8U);
     EXPECT_NEAR(term(score, "bias"), 1.0, 1e-12);
     EXPECT_NEAR(term(score, "friction"), 0.0, 1e-12);
     EXPECT_NEAR(term(score, "balance"), -0.5, 1e-12);
     EXPECT_NEAR(term(score, "weight"), 1.5 * std::log(2.0), 1e-12);
     EXPECT_NEAR(term(score, "torque"), 4.0 * std::log(2.0), 1e-12);
     EXPECT_NEAR(term(score, "contact"), 0.0, 1e-12);
+    EXPECT_NEAR(term(score, "opening"), 0.1, 1e-12);
     EXPECT_NEAR(term(score, "clearance"), 0.25, 1e-12);
-    EXPECT_NEAR(score.score, 1.0 / (1.0 + std::exp(-(1.0 - 0.5 + 5.5 * std::log(2.0) + 0.25))),
-                1e-12);
+    EXPECT_NEAR(score.score,
+                1.0 / (1.0 + std::exp(-(1.0 - 0.5 + 5.5 * std::log(2.0) + 0.1 + 0.25))), 1e-12);
 }
 
-// The best possible: 1 + 2 + 0 + 2 + 0.5, and loads carried twenty times over; more adds nothing.
+// The best possible: 1 + 2 + 0 + 2 + 0.4 + 0.5, and loads carried twenty times over; more adds
+// nothing.
 TEST(ScoreGrasp, TheBestGraspHasAllMerits) {
     GraspEvidence best = plain();
     best.min_friction = best.beta_rad = 0.0;
     best.loads = {0.001, 0.0, 0.0};
-    best.contact_share = 1.0;
+    best.contact_share = best.opening_left = 1.0;
     best.clearance_m = 0.03;  // more than 10 mm adds nothing
-    EXPECT_NEAR(score_of(best), 1.0 / (1.0 + std::exp(-5.5 - 5.5 * std::log(20.0))), 1e-12);
+    EXPECT_NEAR(score_of(best), 1.0 / (1.0 + std::exp(-5.9 - 5.5 * std::log(20.0))), 1e-12);
 }
 
 TEST(ScoreGrasp, EachWeightScalesItsTerm) {
@@ -79,6 +84,7 @@ TEST(ScoreGrasp, EachWeightScalesItsTerm) {
                                    .weight_weight = 3.0,
                                    .torque_weight = 8.0,
                                    .contact_weight = 4.0,
+                                   .opening_weight = 0.8,
                                    .clearance_weight = 1.0};
     GraspEvidence evidence = plain();
     evidence.min_friction = 0.15;

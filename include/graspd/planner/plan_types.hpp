@@ -69,10 +69,12 @@ struct PlanOptions {
     double min_clearance_m = 0.0;   ///< [m] least distance of the gripper on its way
     std::optional<double> mass_kg;  ///< [kg] > 0; absent: volume x 500 kg/m3
     std::optional<Eigen::Vector3d> center_of_mass_O;  ///< [m] absent: of the filled mesh
-    double grip_force_N = 20.0;                       ///< [N] per finger, > 0
-    std::uint8_t sources = kAllSources;               ///< bits of GraspSource
-    bool want_suggestion = false;  ///< say what would help, also when there are grasps
-    std::uint64_t seed = 0;        ///< of every random draw
+    std::optional<Eigen::Vector3d> gravity_F;  ///< unit, its direction; absent: against the support
+                                               ///< plane's normal, without one any direction
+    double grip_force_N = 20.0;                ///< [N] per finger, > 0
+    std::uint8_t sources = kAllSources;        ///< bits of GraspSource
+    bool want_suggestion = false;              ///< say what would help, also when there are grasps
+    std::uint64_t seed = 0;                    ///< of every random draw
 };
 
 /// One planning problem. O is the object as received, F the frame of the request's header.

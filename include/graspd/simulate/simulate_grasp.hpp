@@ -51,6 +51,9 @@ struct SimulationConfig {
     double most_turn_rad = 0.52359878;  ///< [rad] 30 degrees; more is kSlips
     double time_step_s = 0.002;         ///< [s]
     double frame_interval_s = 0.0;      ///< [s] between recorded frames; 0: none are recorded
+    /// Unit, against gravity; absent: the support plane's normal, without one -Gz (the hand is
+    /// above).
+    std::optional<Eigen::Vector3d> up_F;
 };
 
 /// Hand and object at one time, for pictures.

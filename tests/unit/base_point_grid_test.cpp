@@ -1,0 +1,64 @@
+#include "graspd/base/point_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace graspd {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<std::uint32_t> within(const PointGrid& grid, const Vector3d& place, double distance_m) {
+    std::vector<std::uint32_t> found;
+    EXPECT_TRUE(grid.each_within(place, distance_m, [&](std::uint32_t i) {
+        found.push_back(i);
+        return true;
+    }));
+    std::ranges::sort(found);
+    return found;
+}
+
+// Random points, near the origin and a kilometre off; places among them and outside their bounds.
+TEST(PointGrid, FindsWhatComparingAllFinds) {
+    std::mt19937 engine(7);
+    std::uniform_real_distribution<double> number(-0.05, 0.05);
+    for (const double offset_m : {0.0, 1000.0}) {
+        std::vector<Vector3d> points(500);
+        for (Vector3d& p : points) {
+            p = Vector3d(number(engine), number(engine), number(engine));
+            p += Vector3d(offset_m, -offset_m, 0.0);
+        }
+        const PointGrid grid(points, 0.02);
+        for (int k = 0; k < 200; ++k) {
+            const Vector3d place = points[static_cast<std::size_t>(k)] +
+                                   2.0 * Vector3d(number(engine), number(engine), number(engine));
+            const double distance_m = 0.005 + 0.015 * (k % 4) / 3.0;
+            std::vector<std::uint32_t> expected;
+            for (std::uint32_t i = 0; i < points.size(); ++i) {
+                if ((points[i] - place).norm() <= distance_m) expected.push_back(i);
+            }
+            EXPECT_EQ(within(grid, place, distance_m), expected);
+        }
+    }
+}
+
+TEST(PointGrid, EndsWhenItIsToldTo) {
+    const std::vector<Vector3d> points(10, Vector3d::Zero());
+    const PointGrid grid(points, 0.01);
+    int asked = 0;
+    EXPECT_FALSE(
+        grid.each_within(Vector3d::Zero(), 0.01, [&](std::uint32_t) { return ++asked < 3; }));
+    EXPECT_EQ(asked, 3);
+}
+
+TEST(PointGrid, WithoutPointsNobodyIsNear) {
+    const PointGrid grid({}, 0.01);
+    EXPECT_TRUE(within(grid, Vector3d::Zero(), 0.01).empty());
+}
+
+}  // namespace
+}  // namespace graspd
