@@ -2,54 +2,53 @@
 
 #include <algorithm>
 
+#if defined(__SANITIZE_THREAD__)
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#else
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-
-#if defined(__SANITIZE_THREAD__)
-#include <sanitizer/tsan_interface.h>
 #endif
 
 namespace graspd {
 namespace {
 
-/// ThreadSanitizer does not see how Debian's TBB, which is built without it, hands work over and
-/// waits for it: this tells. What the pieces of work do to each other it still watches.
-class Handover {
-public:
-    void give() { release(&given_); }
-    void take() { acquire(&given_); }
-    void finish() { release(&finished_); }
-    void wait() { acquire(&finished_); }
-
-private:
 #if defined(__SANITIZE_THREAD__)
-    static void release(char* at) {
-        __tsan_release(at);
+/// ThreadSanitizer does not see how Debian's TBB, which is built without it, hands work over and
+/// waits for it. Threads of the standard library, which it understands, do the same.
+void each_alone(std::size_t count, const std::function<void(std::size_t i)>& work) {
+    std::atomic<std::size_t> next{0};
+    std::mutex mutex;
+    std::exception_ptr first;
+    const auto run = [&] {
+        for (std::size_t i = next++; i < count; i = next++) {
+            try {
+                work(i);
+            } catch (...) {
+                const std::lock_guard lock(mutex);
+                if (!first) first = std::current_exception();
+            }
+        }
+    };
+    {
+        const std::jthread other(run);
+        run();
     }
-    static void acquire(char* at) {
-        __tsan_acquire(at);
-    }
+    if (first) std::rethrow_exception(first);
+}
 #else
-    static void release(char*) {}
-    static void acquire(char*) {}
-#endif
-    char given_ = 0, finished_ = 0;
-};
-
 /// Calls work(i) for every i below count, each as a task of its own.
 void each_alone(std::size_t count, const std::function<void(std::size_t i)>& work) {
-    Handover handover;
-    handover.give();
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
-            handover.take();
             for (std::size_t i = range.begin(); i != range.end(); ++i) work(i);
-            handover.finish();
         },
         tbb::simple_partitioner());
-    handover.wait();
 }
+#endif
 
 }  // namespace
 
