@@ -1,10 +1,10 @@
 # PCL's component libraries as imported targets, one by one. find_package(PCL) is not used: it runs
 # VTK's CMake files and links pcl_io.
 #
-# graspd_pcl_common, _kdtree, _octree, _search, _sample_consensus, _filters, _features,
-# _segmentation: the shared libraries; none of them needs VTK.
+# graspd_pcl_common, _kdtree, _octree, _search, _sample_consensus, _filters, _features: the shared
+# libraries; none of them needs VTK.
 # graspd_pcl_surface: NOT libpcl_surface, which loads five VTK libraries. The surface classes are
-# templates: include <pcl/surface/impl/concave_hull.hpp> (or gp3.hpp) and they are compiled into the
+# templates: include <pcl/surface/impl/gp3.hpp> and they are compiled into the
 # .cpp that uses them; this target adds what they call (search, kdtree, qhull).
 #
 # Link them privately; PCL headers belong into .cpp files. A package that installs graspd_core must
@@ -46,7 +46,6 @@ graspd_pcl_library(search kdtree octree common)
 graspd_pcl_library(sample_consensus common)
 graspd_pcl_library(filters sample_consensus search kdtree octree common)
 graspd_pcl_library(features filters search kdtree octree common)
-graspd_pcl_library(segmentation features filters search kdtree sample_consensus common)
 
 add_library(graspd_pcl_surface INTERFACE IMPORTED GLOBAL)
 target_link_libraries(graspd_pcl_surface INTERFACE graspd_pcl_search graspd_pcl_kdtree

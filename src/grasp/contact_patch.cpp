@@ -2,45 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
+#include "closing_lines.hpp"
 #include "graspd/base/settings.hpp"
 
 namespace graspd {
 namespace {
 
-/// A cell of a finger's face that sees the object.
-struct Seen {
-    Eigen::Vector3d point_G;
-    double advance_m = 0.0;  ///< [m] that the face goes before this cell touches
-};
+using grasp_detail::LineHit;
 
-double middle_of_cell(std::uint32_t index, std::uint32_t count, double from, double to) {
-    return from + (to - from) * (index + 0.5) / count;
-}
-
-/// Lines from the face towards the object; `side` is -1 for the finger at -Gx. None when a line
-/// begins inside the object.
-std::optional<std::vector<Seen>> look(const TriangleBvh& tree, const Eigen::Isometry3d& X_WG,
-                                      const FingerFace& face, const ContactPatchConfig& config,
-                                      double side) {
-    std::vector<Seen> seen;
-    const Eigen::Vector3d direction_W = -side * X_WG.linear().col(0);
-    for (std::uint32_t i = 0; i < config.lines_across; ++i) {
-        for (std::uint32_t j = 0; j < config.lines_along; ++j) {
-            const Eigen::Vector3d start_G(
-                side * face.half_reach_m,
-                middle_of_cell(i, config.lines_across, -face.half_width_m, face.half_width_m),
-                middle_of_cell(j, config.lines_along, face.from_z_m, face.to_z_m));
-            const auto hit = tree.first_hit(X_WG * start_G, direction_W, 2.0 * face.half_reach_m);
-            if (!hit) continue;
-            if (!hit->from_outside) return std::nullopt;
-            seen.push_back(
-                {start_G - Eigen::Vector3d(side * hit->distance_m, 0.0, 0.0), hit->distance_m});
-        }
+std::vector<double> middles_of_cells(std::uint32_t count, double from, double to) {
+    std::vector<double> middles;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        middles.push_back(from + (to - from) * (i + 0.5) / count);
     }
-    return seen;
+    return middles;
 }
 
 /// The cell's own size counts: a patch of one cell is as wide as that.
@@ -48,22 +25,22 @@ double half_extent_m(double variance, double cell_m) {
     return std::sqrt(3.0 * variance + 0.25 * cell_m * cell_m);
 }
 
-ContactPatch press(const std::vector<Seen>& seen, const FingerFace& face,
+ContactPatch press(const std::vector<LineHit>& seen, const FingerFace& face,
                    const ContactPatchConfig& config) {
-    const double first_m = std::ranges::min(seen, {}, &Seen::advance_m).advance_m;
-    const auto pressure = [&](const Seen& cell) {
+    const double first_m = std::ranges::min(seen, {}, &LineHit::advance_m).advance_m;
+    const auto pressure = [&](const LineHit& cell) {
         return std::max(0.0, 1.0 - (cell.advance_m - first_m) / config.compression_m);
     };
     ContactPatch patch;
     double sum = 0.0;
-    for (const Seen& cell : seen) {
+    for (const LineHit& cell : seen) {
         sum += pressure(cell);
         patch.center_G += pressure(cell) * cell.point_G;
     }
     patch.center_G /= sum;
     Eigen::Vector3d variance = Eigen::Vector3d::Zero();
     double radius = 0.0;
-    for (const Seen& cell : seen) {
+    for (const LineHit& cell : seen) {
         const Eigen::Vector3d off = cell.point_G - patch.center_G;
         variance += pressure(cell) * off.cwiseAbs2();
         radius += pressure(cell) * std::hypot(off.y(), off.z());
@@ -82,8 +59,12 @@ ContactPatch press(const std::vector<Seen>& seen, const FingerFace& face,
 Result<ContactPatches> contact_patches(const TriangleBvh& tree_W, const Eigen::Isometry3d& X_WG,
                                        const FingerFace& face, const ContactPatchConfig& config) {
     if (auto bad = validate(config, "contact_patch.")) return *bad;
-    const auto left = look(tree_W, X_WG, face, config, -1.0);
-    const auto right = look(tree_W, X_WG, face, config, 1.0);
+    const auto y_G = middles_of_cells(config.lines_across, -face.half_width_m, face.half_width_m);
+    const auto z_G = middles_of_cells(config.lines_along, face.from_z_m, face.to_z_m);
+    const auto look = [&](double side) {
+        return grasp_detail::closing_lines(tree_W, X_WG, y_G, z_G, face.half_reach_m, side);
+    };
+    const auto left = look(-1.0), right = look(1.0);
     if (!left || !right) return PlanError{PlanErrorCode::kDegenerate, "a finger begins inside"};
     if (left->empty() || right->empty()) {
         return PlanError{PlanErrorCode::kDegenerate, "a finger meets nothing"};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "closing_lines.hpp"
 #include "graspd/base/settings.hpp"
 
 namespace graspd {
@@ -14,8 +15,12 @@ struct Seen {
     Eigen::Vector3d normal_G;
 };
 
-double middle_of_cell(std::uint32_t index, std::uint32_t count, double half_m) {
-    return half_m * ((2.0 * index + 1.0) / count - 1.0);
+std::vector<double> middles_of_cells(std::uint32_t count, double half_m) {
+    std::vector<double> middles;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        middles.push_back(half_m * ((2.0 * i + 1.0) / count - 1.0));
+    }
+    return middles;
 }
 
 /// Lines along one direction of Gx; `side` is -1 for the pad that comes from -Gx.
@@ -23,21 +28,15 @@ double middle_of_cell(std::uint32_t index, std::uint32_t count, double half_m) {
 std::optional<std::vector<Seen>> look(const TriangleMesh& mesh, const TriangleBvh& tree,
                                       const Eigen::Isometry3d& X_WG, const PadFootprint& pad,
                                       const LocalCloudConfig& config, double side) {
-    std::vector<Seen> seen;
-    const Eigen::Vector3d direction_W = -side * X_WG.linear().col(0);
+    const auto hits = grasp_detail::closing_lines(
+        tree, X_WG, middles_of_cells(config.lines_across, pad.half_width_m),
+        middles_of_cells(config.lines_along, pad.half_height_m), pad.half_reach_m, side);
+    if (!hits) return std::nullopt;
     const Eigen::Matrix3d R_GW = X_WG.linear().transpose();
-    for (std::uint32_t i = 0; i < config.lines_across; ++i) {
-        for (std::uint32_t j = 0; j < config.lines_along; ++j) {
-            const Eigen::Vector3d start_G(side * pad.half_reach_m,
-                                          middle_of_cell(i, config.lines_across, pad.half_width_m),
-                                          middle_of_cell(j, config.lines_along, pad.half_height_m));
-            const auto hit = tree.first_hit(X_WG * start_G, direction_W, 2.0 * pad.half_reach_m);
-            if (!hit) continue;
-            if (!hit->from_outside) return std::nullopt;
-            const Eigen::Vector3d point_G =
-                start_G - Eigen::Vector3d(side * hit->distance_m, 0.0, 0.0);
-            seen.push_back({point_G, R_GW * face_normal(mesh, hit->face)});
-        }
+    std::vector<Seen> seen;
+    seen.reserve(hits->size());
+    for (const grasp_detail::LineHit& hit : *hits) {
+        seen.push_back({hit.point_G, R_GW * face_normal(mesh, hit.face)});
     }
     return seen;
 }

@@ -16,8 +16,7 @@ namespace graspd {
 class PointGrid {
 public:
     /// @param points  [m] finite; copied
-    /// @param cell_m  [m] > 0; not below the largest distance that will be asked for, and at least
-    /// a
+    /// @param cell_m  [m] > 0, no less than the largest distance that will be asked for and than a
     ///                millionth of the points' extent
     /// Cost O(N log N).
     PointGrid(std::span<const Eigen::Vector3d> points, double cell_m);
