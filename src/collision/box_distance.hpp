@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include <Eigen/Core>
 
@@ -10,6 +11,12 @@ namespace graspd::collision_detail {
 
 /// Corners of a triangle, in any frame.
 using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// Those of a face.
+inline Corners corners_of(const TriangleMesh& mesh, std::uint32_t face) {
+    const Triangle& t = mesh.faces[face];
+    return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
 
 /// Least distance between a solid box and a triangle in the same frame, 0 where they meet.
 ///

@@ -18,13 +18,9 @@ namespace graspd {
 namespace {
 
 using collision_detail::Corners;
+using collision_detail::corners_of;
 using collision_detail::distance_m;
 using Eigen::Vector3d;
-
-Corners corners_of(const TriangleMesh& mesh, std::uint32_t face) {
-    const Triangle& t = mesh.faces[face];
-    return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-}
 
 std::array<Vector3d, 8> corners_of(const OrientedBox& box) {
     std::array<Vector3d, 8> corners;

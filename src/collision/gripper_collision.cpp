@@ -12,13 +12,8 @@ namespace graspd {
 namespace {
 
 using collision_detail::boxes_meet;
-using collision_detail::Corners;
+using collision_detail::corners_of;
 using collision_detail::distance_m;
-
-Corners corners_of(const TriangleMesh& mesh, std::uint32_t face) {
-    const Triangle& t = mesh.faces[face];
-    return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-}
 
 bool hits_body(const CollisionBody& body, const OrientedBox& box, const Eigen::Vector3d& way) {
     // Without a common triangle the box lies either wholly outside or wholly inside.
