@@ -220,20 +220,36 @@ void Scanner::emit(const Face& face, double u, double v) {
     samples_.push_back(sample);
 }
 
-/// By point, then by normal. What differs by rounding alone stands in the order of what differs in
-/// earnest, so that a turned object has its samples in the same order.
-bool sample_precedes(const SurfaceSample& a, const SurfaceSample& b, double spacing_m) {
+/// A sample and what it is ordered by: its point, then its normal, each rounded. What differs by
+/// rounding alone stands in the order of what differs in earnest, so that a turned object has its
+/// samples in the same order.
+struct OrderedSample {
+    Eigen::Vector3d point, normal;
+    std::uint32_t at = 0;
+};
+
+std::vector<SurfaceSample> in_order(const std::vector<SurfaceSample>& samples, double spacing_m) {
     const auto rounded = [](const Eigen::Vector3d& value, double unit) -> Eigen::Vector3d {
         return (value.array() / (kOrderUnit * unit) + 0.5).floor();
     };
-    const Eigen::Vector3d point_a = rounded(a.point, spacing_m);
-    const Eigen::Vector3d point_b = rounded(b.point, spacing_m);
-    if (point_a != point_b) return precedes(point_a, point_b);
-    const Eigen::Vector3d normal_a = rounded(a.normal, 1.0), normal_b = rounded(b.normal, 1.0);
-    if (normal_a != normal_b) return precedes(normal_a, normal_b);
-    if (a.point != b.point) return precedes(a.point, b.point);
-    if (a.normal != b.normal) return precedes(a.normal, b.normal);
-    return a.concavity_m < b.concavity_m;
+    std::vector<OrderedSample> order;
+    order.reserve(samples.size());
+    for (const SurfaceSample& s : samples) {
+        const auto at = static_cast<std::uint32_t>(order.size());
+        order.push_back({rounded(s.point, spacing_m), rounded(s.normal, 1.0), at});
+    }
+    std::ranges::sort(order, [&](const OrderedSample& a, const OrderedSample& b) {
+        if (a.point != b.point) return precedes(a.point, b.point);
+        if (a.normal != b.normal) return precedes(a.normal, b.normal);
+        const SurfaceSample &s = samples[a.at], &t = samples[b.at];
+        if (s.point != t.point) return precedes(s.point, t.point);
+        if (s.normal != t.normal) return precedes(s.normal, t.normal);
+        return s.concavity_m < t.concavity_m;
+    });
+    std::vector<SurfaceSample> ordered;
+    ordered.reserve(order.size());
+    for (const OrderedSample& o : order) ordered.push_back(samples[o.at]);
+    return ordered;
 }
 
 }  // namespace
@@ -273,9 +289,7 @@ Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::span<const 
         return error(PlanErrorCode::kDegenerate, "no line of the grid meets the surface; spacing " +
                                                      std::to_string(surface.spacing_m) + " m");
     }
-    std::ranges::sort(surface.samples, [&](const SurfaceSample& a, const SurfaceSample& b) {
-        return sample_precedes(a, b, surface.spacing_m);
-    });
+    surface.samples = in_order(surface.samples, surface.spacing_m);
     return surface;
 }
 

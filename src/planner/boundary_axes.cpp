@@ -1,10 +1,9 @@
 #include "boundary_axes.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 
+#include "graspd/base/point_grid.hpp"
 #include "graspd/contour/order_boundary.hpp"
 #include "graspd/contour/project_points.hpp"
 
@@ -76,31 +75,51 @@ std::vector<GraspCandidate> candidates_on(const std::vector<Eigen::Vector2d>& bo
     return candidates.value();
 }
 
-/// Mean height over the plane of the samples within two spacings of a place; that of the nearest
-/// one when there is none.
-double height_at(const WorkingPlane& plane, const Eigen::Vector2d& place) {
-    const Eigen::Vector3d normal = plane.X_PW.linear().col(2);
-    const double within_m = 2.0 * plane.spacing_m;
-    double sum = 0.0, count = 0.0, nearest = std::numeric_limits<double>::infinity();
-    double nearest_height = 0.0;
-    for (std::size_t i = 0; i < plane.enlarged_W.size(); ++i) {
-        const double distance = (plane.enlarged_W[i] - place).norm();
-        const double height = normal.dot(plane.enlarged_P[i] - plane.X_PW.translation());
-        if (distance <= within_m) {
-            sum += height;
-            count += 1.0;
-        }
-        if (distance < nearest) {
-            nearest = distance;
-            nearest_height = height;
+/// Heights of a concavity's samples over its working plane, asked for by their places in it.
+class HeightMap {
+public:
+    explicit HeightMap(const WorkingPlane& plane)
+        : within_m_(2.0 * plane.spacing_m),
+          places_(in_plane(plane.enlarged_W)),
+          grid_(places_, within_m_) {
+        const Eigen::Vector3d normal = plane.X_PW.linear().col(2);
+        heights_.reserve(places_.size());
+        for (const Eigen::Vector3d& point : plane.enlarged_P) {
+            heights_.push_back(normal.dot(point - plane.X_PW.translation()));
         }
     }
-    return count > 0.0 ? sum / count : nearest_height;
-}
+    /// Mean of the samples within two spacings of a place; the nearest one's when there is none.
+    double at(const Eigen::Vector2d& place) const {
+        const Eigen::Vector3d here(place.x(), place.y(), 0.0);
+        double sum = 0.0, count = 0.0;
+        grid_.each_within(here, within_m_, [&](std::uint32_t i) {
+            sum += heights_[i];
+            count += 1.0;
+            return true;
+        });
+        if (count > 0.0) return sum / count;
+        const auto nearest = std::ranges::min_element(
+            places_, {}, [&](const Eigen::Vector3d& p) { return (p - here).squaredNorm(); });
+        return heights_[static_cast<std::size_t>(nearest - places_.begin())];
+    }
 
-ClosingAxis lifted(const WorkingPlane& plane, const GraspCandidate& candidate) {
-    const double height =
-        0.5 * (height_at(plane, candidate.left_W) + height_at(plane, candidate.right_W));
+private:
+    static std::vector<Eigen::Vector3d> in_plane(const std::vector<Eigen::Vector2d>& places) {
+        std::vector<Eigen::Vector3d> flat;
+        flat.reserve(places.size());
+        for (const Eigen::Vector2d& place : places) flat.emplace_back(place.x(), place.y(), 0.0);
+        return flat;
+    }
+
+    double within_m_;
+    std::vector<Eigen::Vector3d> places_;
+    PointGrid grid_;
+    std::vector<double> heights_;
+};
+
+ClosingAxis lifted(const WorkingPlane& plane, const HeightMap& heights,
+                   const GraspCandidate& candidate) {
+    const double height = 0.5 * (heights.at(candidate.left_W) + heights.at(candidate.right_W));
     const auto lift = [&](const Eigen::Vector2d& place) {
         return Eigen::Vector3d(plane.X_PW * Eigen::Vector3d(place.x(), place.y(), height));
     };
@@ -134,9 +153,11 @@ std::vector<ClosingAxis> boundary_axes(const Concavity& concavity, std::int32_t 
         const WorkingPlane plane{X_PW, enlarged_P, project_points(salient_P, X_PW),
                                  project_points(enlarged_P, X_PW), surface.spacing_m};
         const auto boundary = ordered_boundary(plane, config, log);
-        for (const GraspCandidate& candidate :
-             candidates_on(boundary, surface.spacing_m, gripper, config, log)) {
-            ClosingAxis axis = lifted(plane, candidate);
+        const auto candidates = candidates_on(boundary, surface.spacing_m, gripper, config, log);
+        if (candidates.empty()) continue;
+        const HeightMap heights(plane);
+        for (const GraspCandidate& candidate : candidates) {
+            ClosingAxis axis = lifted(plane, heights, candidate);
             axis.source = kBoundary;
             axis.concavity = index;
             axis.depth_m = concavity.depth_m;
