@@ -38,13 +38,7 @@ Eigen::Isometry3d pose_of(const nlohmann::json& grasp) {
 }
 
 ClosingAxis axis_of(const nlohmann::json& grasp, const Eigen::Isometry3d& X_PO) {
-    const Eigen::Isometry3d X_PG = X_PO * pose_of(grasp);
-    const Eigen::Vector3d half = 0.5 * grasp["width"].get<double>() * X_PG.linear().col(0);
-    ClosingAxis axis;
-    axis.left_P = X_PG.translation() - half;
-    axis.right_P = X_PG.translation() + half;
-    axis.reference_P = X_PG.linear().col(2);
-    return axis;
+    return axis_through(X_PO * pose_of(grasp), grasp["width"].get<double>());
 }
 
 double mass_of(const char* text, const PreparedObject& object) {

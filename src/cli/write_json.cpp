@@ -75,6 +75,11 @@ Json json_of(const Grasp& grasp, std::size_t rank) {
     out["beta_rad"] = grasp.beta_rad;
     out["min_friction"] = grasp.min_friction;
     out["min_force"] = grasp.min_force_N;
+    out["tolerance"] = nullptr;
+    if (grasp.tolerance) {
+        out["tolerance"] = {{"shift", grasp.tolerance->shift_m},
+                            {"turn", grasp.tolerance->turn_rad}};
+    }
     out["source"] = to_string(grasp.source);
     out["gripper"] = grasp.gripper_name;
     return out;

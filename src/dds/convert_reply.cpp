@@ -7,6 +7,7 @@ namespace {
 
 constexpr const char* kScoreKind = "calibrated";
 constexpr const char* kConvention = "tcp_z_approach_x_closing";
+constexpr PoseTolerance kNotMeasured{-1.0, -1.0};
 constexpr std::size_t kMostNearMisses = 3;  // the bound of idl/graspd.idl
 
 wire::LinearMotion_ write_motion(const LinearMotion& motion) {
@@ -43,6 +44,9 @@ wire::Grasp_ write_grasp(const Grasp& in) {
         entry.value(term.value);
     }
     out.source(in.source);
+    const PoseTolerance tolerance = in.tolerance.value_or(kNotMeasured);
+    out.tolerance_shift(tolerance.shift_m);
+    out.tolerance_turn(tolerance.turn_rad);
     return out;
 }
 
@@ -122,6 +126,9 @@ Grasp read_grasp(const wire::Grasp_& in, const std::string& path, FirstError& er
         out.terms.push_back({term.name(), term.value()});
     }
     out.source = read_source(in.source(), path, errors);
+    if (in.tolerance_shift() >= 0.0 && in.tolerance_turn() >= 0.0) {
+        out.tolerance = {in.tolerance_shift(), in.tolerance_turn()};
+    }
     return out;
 }
 

@@ -114,8 +114,14 @@ std::optional<PlanError> check_surroundings(const PlanRequest& request) {
 
 std::optional<PlanError> check_request(const PlanRequest& request) {
     if (request.grippers.empty()) return invalid("grippers is empty: at least one is needed");
-    for (const Gripper& gripper : request.grippers) {
-        if (auto bad = validate(gripper)) return bad;
+    for (std::size_t i = 0; i < request.grippers.size(); ++i) {
+        if (auto bad = validate(request.grippers[i])) return bad;
+        const std::string& name = request.grippers[i].name;
+        for (std::size_t j = 0; j < i; ++j) {
+            if (request.grippers[j].name != name) continue;
+            return invalid("grippers[", i, "].name = \"", name, "\" is also that of grippers[", j,
+                           "]: a grasp tells its gripper by name");
+        }
     }
     if (auto bad = check_pose("object_pose", request.X_FO)) return bad;
     if (auto bad = check_options(request.options)) return bad;

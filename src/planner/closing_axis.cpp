@@ -4,6 +4,15 @@
 
 namespace graspd::planner_detail {
 
+ClosingAxis axis_through(const Eigen::Isometry3d& X_PG, double width_m) {
+    ClosingAxis axis;
+    const Eigen::Vector3d half = 0.5 * width_m * X_PG.linear().col(0);
+    axis.left_P = X_PG.translation() - half;
+    axis.right_P = X_PG.translation() + half;
+    axis.reference_P = X_PG.linear().col(2);
+    return axis;
+}
+
 Eigen::Isometry3d local_frame(const ClosingAxis& axis, const ApproachPose& pose) {
     const Eigen::Vector3d x = (axis.right_P - axis.left_P).normalized();
     const Eigen::Vector3d& z0 = axis.reference_P;

@@ -25,6 +25,10 @@ struct ClosingAxis {
     double depth_m = 0.0;         ///< [m] of that region
 };
 
+/// The axis on which a hand at X_PG, its pads so far apart, closes; its reference is the hand's own
+/// approach. Neither source nor concavity.
+ClosingAxis axis_through(const Eigen::Isometry3d& X_PG, double width_m);
+
 /// Grasp frame of Figs. 16-17: Gx along the axis, Gz turned about it from the reference direction,
 /// origin in the middle between the axis's ends, or deeper.
 Eigen::Isometry3d local_frame(const ClosingAxis& axis, const ApproachPose& pose);

@@ -5,7 +5,9 @@
 #include "answer.hpp"
 #include "check_request.hpp"
 #include "graspd/base/fnv1a.hpp"
+#include "graspd/base/parallel.hpp"
 #include "graspd/base/settings.hpp"
+#include "pose_tolerance.hpp"
 #include "search_grasps.hpp"
 #include "select_grasps.hpp"
 #include "suggest.hpp"
@@ -56,6 +58,13 @@ struct Scene {
           down_P(gravity_P(request, X_FP)) {}
 };
 
+Judgement judgement_of(const PlanRequest& request, const Scene& scene, const Gripper& gripper,
+                       const PlannerConfig& config) {
+    return {request,     scene.object, scene.surroundings.world(), gripper,
+            config,      scene.X_FP,   scene.center_of_mass_P,     scene.mass_kg,
+            scene.down_P};
+}
+
 /// Sections II-B to II-F (concavities, boundaries, candidates, force balance, manipulability): what
 /// there is within the limits of a request.
 Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const PlannerConfig& config,
@@ -69,10 +78,7 @@ Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const Planne
             if (!seen) return seen.error();
             scene.seen.push_back(std::move(seen).value());
         }
-        const Judgement judgement{
-            request,     scene.object, scene.surroundings.world(), gripper,
-            config,      scene.X_FP,   scene.center_of_mass_P,     scene.mass_kg,
-            scene.down_P};
+        const Judgement judgement = judgement_of(request, scene, gripper, config);
         auto of_gripper = search_grasps(judgement, scene.seen[i], stop_requested, log);
         std::ranges::move(of_gripper.grasps, std::back_inserter(grasps));
         found.rejections.merge(of_gripper.rejections);
@@ -84,6 +90,26 @@ Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const Planne
     if (!best) return best.error();
     found.grasps = std::move(best).value();
     return found;
+}
+
+/// What errors of the hand's pose the best few stand.
+void measure_tolerances(const PlanRequest& request, std::vector<Grasp>& grasps, const Scene& scene,
+                        const PlannerConfig& config, StageLog& log) {
+    const std::size_t count = std::min<std::size_t>(config.search.tolerances, grasps.size());
+    if (count == 0) return;
+    constexpr const char* kTolerance = "planner/pose_tolerance";
+    log.run(kTolerance, count, [&] {
+        for_blocks(count, 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                const auto gripper =
+                    std::ranges::find(request.grippers, grasps[i].gripper_name, &Gripper::name);
+                grasps[i].tolerance =
+                    pose_tolerance(grasps[i], judgement_of(request, scene, *gripper, config));
+            }
+        });
+        return 0;
+    });
+    log.out(kTolerance, count);
 }
 
 /// What would help, by planning again for the same object within other limits.
@@ -147,8 +173,11 @@ PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
     answer.reply.report.findings = object.value().findings;
 
     Scene scene(request, object.value());
-    const auto found = find_grasps(request, scene, config, stop_requested, answer.log);
+    auto found = find_grasps(request, scene, config, stop_requested, answer.log);
     if (!found) return answer.refuse(found.error());
+    if (!found.value().stopped) {
+        measure_tolerances(request, found.value().grasps, scene, config, answer.log);
+    }
     answer.conclude(found.value(), scene.X_FP);
 
     const bool wanted = request.options.want_suggestion || found.value().grasps.empty();

@@ -10,16 +10,6 @@ namespace {
 
 constexpr double kLeastGain = 1e-3;  // of the score: what a move must be worth
 
-/// A grasp's own pose as the axis and approach from which it is found again.
-ClosingAxis axis_at(const GradedGrasp& grasp, const Eigen::Isometry3d& X_PG) {
-    ClosingAxis axis = grasp.axis;
-    const Eigen::Vector3d half = 0.5 * grasp.width_m * X_PG.linear().col(0);
-    axis.left_P = X_PG.translation() - half;
-    axis.right_P = X_PG.translation() + half;
-    axis.reference_P = X_PG.linear().col(2);
-    return axis;
-}
-
 /// The poses one step away.
 std::vector<Eigen::Isometry3d> neighbours(const Eigen::Isometry3d& X_PG, double shift_m,
                                           double turn_rad) {
@@ -44,7 +34,8 @@ bool refine(GradedGrasp& grasp, const Judgement& judgement) {
         for (const Eigen::Isometry3d& X_PG : neighbours(grasp.X_PG, shift_m, turn_rad)) {
             Rejections unused;
             StageLog untold;
-            auto moved = evaluate_pose(axis_at(grasp, X_PG), {}, judgement, unused, untold);
+            auto moved =
+                evaluate_pose(axis_through(X_PG, grasp.width_m), {}, judgement, unused, untold);
             const double least = best ? best->score.score : grasp.score.score;
             if (moved && moved->score.score > least + kLeastGain) best = std::move(moved);
         }

@@ -76,6 +76,12 @@ void expect_merits(const Grasp& grasp, const PlanRequest& request, const Planner
         const double spare = 2.0 * (request.options.friction - grasp.min_friction);
         EXPECT_NEAR(grasp.min_force_N, *request.options.mass_kg * 9.81 / spare, 1e-9);
     }
+    if (grasp.tolerance) {
+        EXPECT_GE(grasp.tolerance->shift_m, 0.0);
+        EXPECT_LE(2.0 * grasp.tolerance->shift_m, grasp.open_width_m - grasp.width_m + 1e-12);
+        EXPECT_LE(grasp.tolerance->shift_m, config.search.tolerance_shift_m);
+        EXPECT_LE(grasp.tolerance->turn_rad, config.search.tolerance_turn_rad);
+    }
     double sum = 0.0;
     for (const ScoreTerm& term : grasp.terms) sum += term.value;
     EXPECT_EQ(grasp.terms.size(), 8U);

@@ -61,6 +61,7 @@ Grasp sample_grasp(std::int32_t index) {
     grasp.score = 0.7;
     grasp.terms = {{"bias", -1.0}, {"balance", 1.8}};
     grasp.source = index < 0 ? kWholeObject : kWall;
+    if (index >= 0) grasp.tolerance = {0.004, 0.05};
     return grasp;
 }
 
@@ -155,6 +156,11 @@ void expect_same(const Grasp& a, const Grasp& b) {
     EXPECT_EQ(a.beta_rad, b.beta_rad);
     EXPECT_EQ(a.min_friction, b.min_friction);
     EXPECT_EQ(a.min_force_N, b.min_force_N);
+    ASSERT_EQ(a.tolerance.has_value(), b.tolerance.has_value());
+    if (a.tolerance) {
+        EXPECT_EQ(a.tolerance->shift_m, b.tolerance->shift_m);
+        EXPECT_EQ(a.tolerance->turn_rad, b.tolerance->turn_rad);
+    }
     EXPECT_EQ(a.score, b.score);
     EXPECT_EQ(a.source, b.source);
     ASSERT_EQ(a.terms.size(), b.terms.size());

@@ -1,5 +1,6 @@
 #include "check_request.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -34,6 +35,20 @@ TEST(CheckRequest, AcceptsTheEndsOfTheRanges) {
     request.approach_cones = {{Vector3d::UnitX(), std::numbers::pi}};
     EXPECT_FALSE(check_request(request).has_value());
     request.options.sources = kAllSources;
+    EXPECT_FALSE(check_request(request).has_value());
+}
+
+// A grasp of the reply says by name for which gripper it is.
+TEST(CheckRequest, RefusesTwoGrippersOfOneName) {
+    PlanRequest request = test::small_request();
+    Gripper other = request.grippers.front();
+    other.max_width_m *= 0.5;
+    request.grippers.push_back(other);
+    const auto bad = check_request(request);
+    ASSERT_TRUE(bad.has_value());
+    EXPECT_EQ(bad->code, PlanErrorCode::kInvalidInput);
+    EXPECT_THAT(bad->detail, testing::HasSubstr("grippers[1].name = \"" + other.name + "\""));
+    request.grippers.back().name += "_b";
     EXPECT_FALSE(check_request(request).has_value());
 }
 

@@ -66,6 +66,7 @@ std::vector<Case> cases() {
             {"two grippers",
              [](PlanRequest& r) {
                  r.grippers.insert(r.grippers.begin(), r.grippers.front());
+                 r.grippers.back().name = "narrow";
                  r.grippers.back().max_width_m = 0.03;
              }},
             {"all at once", [=](PlanRequest& r) {

@@ -103,6 +103,12 @@ struct LinearMotion {
     double distance_m = 0.0;                                ///< [m]
 };
 
+/// Errors of the hand's pose that a grasp stands, in every direction of the grasp frame.
+struct PoseTolerance {
+    double shift_m = 0.0;   ///< [m]
+    double turn_rad = 0.0;  ///< [rad]
+};
+
 /// A ranked grasp; convention tcp_z_approach_x_closing (Gx closing, Gz approach, origin = TCP at
 /// contact).
 struct Grasp {
@@ -124,6 +130,7 @@ struct Grasp {
     double score = 0.0;                 ///< in [0, 1] = 1 / (1 + exp(-sum of terms))
     std::vector<ScoreTerm> terms;
     GraspSource source = kBoundary;
+    std::optional<PoseTolerance> tolerance;  ///< of the best few; absent where it was not measured
 };
 
 /// One stage's work: items in, items out, and how long it took.

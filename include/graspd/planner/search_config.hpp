@@ -24,6 +24,10 @@ struct SearchConfig {
     std::uint32_t refine_rounds = 3;       ///< of moves to either side, each half as far as before
     double refine_shift_m = 0.006;         ///< [m] first move along Gy and Gz
     double refine_turn_rad = 0.2;          ///< [rad] first turn about Gx, Gy and Gz
+    std::uint32_t tolerances = 5;          ///< best grasps whose tolerance to errors is measured
+    double tolerance_shift_m = 0.008;      ///< [m] greatest error tried along each axis
+    double tolerance_turn_rad = 0.2;       ///< [rad] greatest error tried about each axis
+    std::uint32_t tolerance_halvings = 4;  ///< of both: smaller errors that are tried
     double most_clearance_m = 0.05;        ///< [m] clearance is measured up to here
 
     template <class Self, class Visitor>
@@ -43,6 +47,10 @@ struct SearchConfig {
         visit("refine_rounds", self.refine_rounds, 0u, 20u);
         visit("refine_shift_m", self.refine_shift_m, 0.0, 0.1);
         visit("refine_turn_rad", self.refine_turn_rad, 0.0, 1.0);
+        visit("tolerances", self.tolerances, 0u, 1000u);
+        visit("tolerance_shift_m", self.tolerance_shift_m, 0.0, 0.1);
+        visit("tolerance_turn_rad", self.tolerance_turn_rad, 0.0, 1.0);
+        visit("tolerance_halvings", self.tolerance_halvings, 0u, 20u);
         visit("most_clearance_m", self.most_clearance_m, 1e-3, 1.0);
     }
 };
