@@ -1,7 +1,7 @@
 // How long whole plans take in a process that runs for long, as the daemon does, and in which
 // stages:
 //
-//   plan_bench [--runs N] [--gripper NAME] FILE...
+//   plan_bench [--runs N] [--gripper NAME] [--config PLANNER.yaml] FILE...
 //
 // One warm-up, then N runs a file (default 11). A line a file with the median of the whole, then a
 // line a stage: median and most over the files of each file's median. Stages that run on several
@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "graspd/config/load_config.hpp"
 #include "graspd/config/load_gripper.hpp"
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/mesh/read_object.hpp"
@@ -39,11 +40,12 @@ double median(std::vector<double> values) {
 }
 
 /// Milliseconds by stage, "total" among them, one value a run.
-std::map<std::string, std::vector<double>> measure(const PlanRequest& request, int runs) {
+std::map<std::string, std::vector<double>> measure(const PlanRequest& request,
+                                                   const PlannerConfig& config, int runs) {
     std::map<std::string, std::vector<double>> ms;
     for (int run = -1; run < runs; ++run) {
         const auto start = std::chrono::steady_clock::now();
-        const PlanReply reply = plan(request, {});
+        const PlanReply reply = plan(request, config);
         const std::chrono::duration<double, std::milli> taken =
             std::chrono::steady_clock::now() - start;
         if (run < 0) continue;
@@ -59,19 +61,23 @@ int main(int count, char** arguments) {
     CLI::App app("times of whole plans");
     int runs = 11;
     std::string gripper_name = "parallel_85";
+    std::string config_file;
     std::vector<std::string> files;
     app.add_option("--runs", runs)->check(CLI::PositiveNumber);
     app.add_option("--gripper", gripper_name);
+    app.add_option("--config", config_file);
     app.add_option("FILE", files)->required();
     CLI11_PARSE(app, count, arguments);
 
+    PlannerConfig config;
+    if (!config_file.empty()) config = value_of(load_config<PlannerConfig>(config_file));
     PlanRequest request;
     request.grippers = {
         value_of(find_gripper(gripper_name, value_of(find_profiles()) / "grippers"))};
     std::map<std::string, std::vector<double>> medians;
     for (const std::string& file : files) {
         request.object_O = value_of(read_object(file)).object;
-        for (const auto& [stage, ms] : measure(request, runs)) {
+        for (const auto& [stage, ms] : measure(request, config, runs)) {
             medians[stage].push_back(median(ms));
         }
         std::printf("%-40s %8.1f ms\n", std::filesystem::path(file).filename().c_str(),

@@ -44,8 +44,8 @@ ConcavityField search_ways(const PathGround& ground, const HullPlaneTree& planes
     timer.run("direct", [&] { search.prove_direct(); });
     timer.run("propagate", [&] { search.propagate_inwards(); });
     timer.run("reach", [&] { search.reach_what_no_edge_reaches(); });
-    timer.run("shorten", [&] { search.shorten_across_the_void(); });
-    timer.run("slide", [&] { search.slide_bends(); });
+    if (config.across_the_void) timer.run("shorten", [&] { search.shorten_across_the_void(); });
+    if (config.slide) timer.run("slide", [&] { search.slide_bends(); });
     return search.take();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "graspd/base/parallel.hpp"
 #include "graspd/base/point_grid.hpp"
 #include "graspd/contour/order_boundary.hpp"
 #include "graspd/contour/project_points.hpp"
@@ -131,6 +132,21 @@ ClosingAxis lifted(const WorkingPlane& plane, const HeightMap& heights,
     return axis;
 }
 
+/// Sections II-D and II-E on one working plane.
+std::vector<ClosingAxis> axes_on(const WorkingPlane& plane, const Gripper& gripper,
+                                 const PlannerConfig& config, StageLog& log) {
+    const auto boundary = ordered_boundary(plane, config, log);
+    const auto candidates = candidates_on(boundary, plane.spacing_m, gripper, config, log);
+    if (candidates.empty()) return {};
+    const HeightMap heights(plane);
+    std::vector<ClosingAxis> axes;
+    axes.reserve(candidates.size());
+    for (const GraspCandidate& candidate : candidates) {
+        axes.push_back(lifted(plane, heights, candidate));
+    }
+    return axes;
+}
+
 }  // namespace
 
 std::vector<ClosingAxis> boundary_axes(const Concavity& concavity, std::int32_t index,
@@ -146,25 +162,28 @@ std::vector<ClosingAxis> boundary_axes(const Concavity& concavity, std::int32_t 
     if (!frame) return {};
     log.out(kFrame, config.search.planes);
 
-    std::vector<ClosingAxis> axes;
     const auto enlarged_P = points_of(surface, concavity.enlarged);
-    for (std::uint32_t i = 0; i < config.search.planes; ++i) {
-        const Eigen::Isometry3d& X_PW = frame.value().planes[i].X_OW;
-        const WorkingPlane plane{X_PW, enlarged_P, project_points(salient_P, X_PW),
-                                 project_points(enlarged_P, X_PW), surface.spacing_m};
-        const auto boundary = ordered_boundary(plane, config, log);
-        const auto candidates = candidates_on(boundary, surface.spacing_m, gripper, config, log);
-        if (candidates.empty()) continue;
-        const HeightMap heights(plane);
-        for (const GraspCandidate& candidate : candidates) {
-            ClosingAxis axis = lifted(plane, heights, candidate);
+    std::vector<std::vector<ClosingAxis>> axes(config.search.planes);
+    std::vector<StageLog> logs(config.search.planes);
+    for_blocks(axes.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Eigen::Isometry3d& X_PW = frame.value().planes[i].X_OW;
+            const WorkingPlane plane{X_PW, enlarged_P, project_points(salient_P, X_PW),
+                                     project_points(enlarged_P, X_PW), surface.spacing_m};
+            axes[i] = axes_on(plane, gripper, config, logs[i]);
+        }
+    });
+    std::vector<ClosingAxis> all;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        log.merge(logs[i]);
+        for (ClosingAxis& axis : axes[i]) {
             axis.source = kBoundary;
             axis.concavity = index;
             axis.depth_m = concavity.depth_m;
-            axes.push_back(axis);
+            all.push_back(axis);
         }
     }
-    return axes;
+    return all;
 }
 
 }  // namespace graspd::planner_detail

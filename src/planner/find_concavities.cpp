@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "graspd/base/parallel.hpp"
 
 namespace graspd::planner_detail {
 namespace {
@@ -22,28 +25,40 @@ Result<std::vector<Concavity>> find_concavities(const SurfaceSamples& surface,
                                                 const PlannerConfig& config, StageLog& log) {
     constexpr const char* kExtract = "regions/extract_concave_areas";
     constexpr const char* kCluster = "regions/cluster_concavities";
-    std::vector<Concavity> found;
+    // Which levels there are; a level whose threshold is that of the one before adds nothing.
+    std::vector<ConcaveAreas> levels;
     ExtractConcaveAreasConfig extract = config.extract_concave_areas;
-    double threshold_before = -1.0;
     for (std::uint32_t level = 0; level < config.search.levels; ++level) {
         extract.salient_fraction = config.extract_concave_areas.salient_fraction *
                                    std::pow(config.search.level_ratio, level);
-        const auto areas = log.run(kExtract, surface.samples.size(), [&] {
+        auto areas = log.run(kExtract, surface.samples.size(), [&] {
             return extract_concave_areas(surface.samples, finger_thickness_m, extract);
         });
         if (!areas) return areas.error();
-        if (areas.value().salient.empty() || areas.value().threshold_m == threshold_before) break;
-        threshold_before = areas.value().threshold_m;
+        if (areas.value().salient.empty()) break;
+        if (!levels.empty() && areas.value().threshold_m == levels.back().threshold_m) break;
         log.out(kExtract, areas.value().salient.size());
-
-        const auto clusters = log.run(kCluster, areas.value().salient.size(), [&] {
-            return cluster_concavities(surface.samples, areas.value(), surface.spacing_m,
-                                       config.cluster_concavities);
+        log.count(kCluster, areas.value().salient.size(), 0);
+        levels.push_back(std::move(areas).value());
+    }
+    std::vector<std::optional<Result<std::vector<Concavity>>>> clusters(levels.size());
+    log.run(kCluster, 0, [&] {
+        for_blocks(levels.size(), 1, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                clusters[i] = cluster_concavities(surface.samples, levels[i], surface.spacing_m,
+                                                  config.cluster_concavities);
+            }
         });
-        if (!clusters) return clusters.error();
+        return 0;
+    });
+    std::vector<Concavity> found;
+    for (auto& of_level : clusters) {
+        if (!*of_level) return of_level->error();
         const std::vector<Concavity> known = found;
-        for (const Concavity& cluster : clusters.value()) {
-            if (!repeats(cluster, known, config.search.level_growth)) found.push_back(cluster);
+        for (Concavity& cluster : of_level->value()) {
+            if (!repeats(cluster, known, config.search.level_growth)) {
+                found.push_back(std::move(cluster));
+            }
         }
     }
     std::ranges::stable_sort(found, std::ranges::greater{}, &Concavity::depth_m);

@@ -24,7 +24,10 @@ Result<TriangleMesh> surface_of(const std::variant<TriangleMesh, PointCloud>& ob
 /// Hull, tree and concavity side by side where they can be, so that their times overlap.
 std::optional<PlanError> measure_by_any_angle(PreparedObject& object, const PlannerConfig& config,
                                               StageLog& log) {
-    auto measured = measure_concavity(object.mesh_P, config.shortest_path_concavity);
+    ConcavityConfig steps = config.shortest_path_concavity;
+    steps.across_the_void = steps.across_the_void && config.search.exact_concavity;
+    steps.slide = steps.slide && config.search.exact_concavity;
+    auto measured = measure_concavity(object.mesh_P, steps);
     if (!measured) return measured.error();
     double hull_ms = 0.0, tree_ms = 0.0, field_ms = 0.0;
     for (const StepTime& time : measured.value().times) {

@@ -17,6 +17,8 @@ struct ConcavityConfig {
     double min_gain = 1e-9;           ///< [1] relative gain below which no ray is cast
     std::uint32_t failed_memory = 6;  ///< last parents per vertex that were found hidden
     std::uint32_t max_relaxations_per_vertex = 200;  ///< bounds the propagation
+    bool across_the_void = true;  ///< step 3; without it, ways follow the mesh's edges
+    bool slide = true;            ///< step 4; without it, ways bend at vertices alone
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
@@ -24,6 +26,8 @@ struct ConcavityConfig {
         visit("min_gain", self.min_gain, 0.0, 1e-3);
         visit("failed_memory", self.failed_memory, 0u, 64u);
         visit("max_relaxations_per_vertex", self.max_relaxations_per_vertex, 1u, 10000u);
+        visit("across_the_void", self.across_the_void);
+        visit("slide", self.slide);
     }
 };
 

@@ -6,6 +6,7 @@ namespace graspd {
 
 /// How much the planner looks at. All loops are bounded by these counts, never by the clock.
 struct SearchConfig {
+    bool exact_concavity = false;  ///< else without the last two steps of shortest_path_concavity
     std::uint32_t levels = 3;      ///< salience thresholds: salient_fraction x level_ratio^k
     double level_ratio = 0.6;      ///< [1] from one threshold to the next
     double level_growth = 1.5;     ///< [1] a region of a lower threshold counts as new from so many
@@ -32,6 +33,7 @@ struct SearchConfig {
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
+        visit("exact_concavity", self.exact_concavity);
         visit("levels", self.levels, 1u, 20u);
         visit("level_ratio", self.level_ratio, 0.05, 0.99);
         visit("level_growth", self.level_growth, 1.0, 100.0);
