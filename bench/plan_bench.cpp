@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "graspd/base/freed_memory.hpp"
 #include "graspd/config/load_config.hpp"
 #include "graspd/config/load_gripper.hpp"
 #include "graspd/config/profile_directory.hpp"
@@ -69,6 +70,7 @@ int main(int count, char** arguments) {
     app.add_option("FILE", files)->required();
     CLI11_PARSE(app, count, arguments);
 
+    keep_freed_memory(kFreedMemory_bytes);  // as the daemon does
     PlannerConfig config;
     if (!config_file.empty()) config = value_of(load_config<PlannerConfig>(config_file));
     PlanRequest request;

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <optional>
 
+#include "graspd/base/parallel.hpp"
+
 namespace graspd::planner_detail {
 namespace {
 
@@ -101,13 +103,19 @@ bool similar(const ClosingAxis& a, const ClosingAxis& b, const Judgement& judgem
 
 std::vector<ClosingAxis> order_axes(std::vector<ClosingAxis> axes, const Judgement& judgement,
                                     Rejections& rejections) {
+    constexpr std::size_t kAtATime = 32;
+    std::vector<ProbedAxis> candidates;
+    for (ClosingAxis& axis : axes) candidates.push_back({std::move(axis), 0.0});
+    std::vector<const char*> reasons(candidates.size());
+    for_blocks(candidates.size(), kAtATime, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) reasons[i] = probe(candidates[i], judgement);
+    });
     std::vector<ProbedAxis> probed;
-    for (ClosingAxis& axis : axes) {
-        ProbedAxis candidate{std::move(axis), 0.0};
-        if (const char* reason = probe(candidate, judgement)) {
-            count(candidate.axis, reason, judgement, rejections);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (reasons[i]) {
+            count(candidates[i].axis, reasons[i], judgement, rejections);
         } else {
-            probed.push_back(std::move(candidate));
+            probed.push_back(std::move(candidates[i]));
         }
     }
     std::ranges::stable_sort(probed, {}, [](const ProbedAxis& candidate) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "graspd/base/parallel.hpp"
+
 namespace graspd::planner_detail {
 namespace {
 
@@ -26,11 +28,21 @@ Result<std::vector<GradedGrasp>> best_of(const std::vector<GradedGrasp>& grasps,
     return kept;
 }
 
-double clearance_m(const GradedGrasp& grasp, const CollisionWorld& world_P, double most_m,
-                   const PlannerConfig& config) {
-    const ApproachShape shape{grasp.width_m, grasp.open_width_m,
-                              config.manipulability.approach_distance_m};
-    return approach_clearance(world_P, *grasp.gripper, grasp.X_PG, shape, most_m).distance_m;
+/// [m] up to most_m, one a grasp.
+std::vector<double> clearances_m(const std::vector<GradedGrasp>& grasps,
+                                 const CollisionWorld& world_P, double most_m,
+                                 const PlannerConfig& config) {
+    std::vector<double> clear_m(grasps.size());
+    for_blocks(grasps.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const GradedGrasp& grasp = grasps[i];
+            const ApproachShape shape{grasp.width_m, grasp.open_width_m,
+                                      config.manipulability.approach_distance_m};
+            clear_m[i] =
+                approach_clearance(world_P, *grasp.gripper, grasp.X_PG, shape, most_m).distance_m;
+        }
+    });
+    return clear_m;
 }
 
 /// Drops the grasps that come nearer to anything than the request allows. All of them are asked,
@@ -38,13 +50,18 @@ double clearance_m(const GradedGrasp& grasp, const CollisionWorld& world_P, doub
 void drop_nearer(std::vector<GradedGrasp>& grasps, const CollisionWorld& world_P, double least_m,
                  const PlannerConfig& config, Rejections& rejections) {
     if (!(least_m > 0.0)) return;
-    std::erase_if(grasps, [&](const GradedGrasp& grasp) {
-        const double lacking_m = least_m - clearance_m(grasp, world_P, least_m, config);
-        if (lacking_m <= 0.0) return false;
-        rejections.add_miss("clearance", grasp.X_PG, lacking_m, "m",
-                            config.search.most_clearance_m);
-        return true;
-    });
+    const auto clear_m = clearances_m(grasps, world_P, least_m, config);
+    std::vector<GradedGrasp> clear;
+    for (std::size_t i = 0; i < grasps.size(); ++i) {
+        const double lacking_m = least_m - clear_m[i];
+        if (lacking_m <= 0.0) {
+            clear.push_back(std::move(grasps[i]));
+        } else {
+            rejections.add_miss("clearance", grasps[i].X_PG, lacking_m, "m",
+                                config.search.most_clearance_m);
+        }
+    }
+    grasps = std::move(clear);
 }
 
 Contact placed(const Contact& contact_P, const Eigen::Isometry3d& X_FP) {
@@ -98,8 +115,10 @@ Result<std::vector<Grasp>> select_grasps(std::vector<GradedGrasp> grasps,
     if (!shortlist) return shortlist.error();
     const double most_m = std::max(config.search.most_clearance_m, request.options.min_clearance_m);
     log.run(kClearance, 0, [&] {
-        for (GradedGrasp& grasp : shortlist.value()) {
-            grasp.evidence.clearance_m = clearance_m(grasp, world_P, most_m, config);
+        const auto clear_m = clearances_m(shortlist.value(), world_P, most_m, config);
+        for (std::size_t i = 0; i < clear_m.size(); ++i) {
+            GradedGrasp& grasp = shortlist.value()[i];
+            grasp.evidence.clearance_m = clear_m[i];
             grasp.score = score_grasp(grasp.evidence, config.score_grasp);
         }
         return 0;

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "daemon_arguments.hpp"
+#include "graspd/base/freed_memory.hpp"
 #include "graspd/config/domain_id.hpp"
 #include "graspd/config/load_config.hpp"
 #include "graspd/config/load_gripper.hpp"
@@ -173,6 +174,7 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);                  // whoever reads the log may leave
     const auto arguments = parse_daemon_arguments(argc, argv);
     if (const int* code = std::get_if<int>(&arguments)) return *code;
+    keep_freed_memory(kFreedMemory_bytes);
     try {
         return run(std::get<DaemonArguments>(arguments), signals);
     } catch (const std::exception& error) {
