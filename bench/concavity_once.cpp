@@ -13,6 +13,7 @@
 #include <tbb/global_control.h>
 
 #include "bench_meshes.hpp"
+#include "graspd/base/freed_memory.hpp"
 #include "graspd/concavity/shortest_path_concavity.hpp"
 #include "graspd/mesh/condition_mesh.hpp"
 
@@ -100,6 +101,7 @@ std::size_t number(const char* text) {
 }  // namespace
 
 int main(int count, char** arguments) {
+    graspd::keep_freed_memory(graspd::kFreedMemory_bytes);  // as the daemon does
     const std::size_t threads = count >= 3 ? number(arguments[2]) : 0;
     const std::size_t times = count == 4 ? number(arguments[3]) : 1;
     if (count > 4 || threads == 0 || times == 0) {
