@@ -15,18 +15,13 @@
 #include "graspd/config/load_gripper.hpp"
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/mesh/read_object.hpp"
+#include "value_of.hpp"
 
 namespace {
 
 using namespace graspd;
 using namespace graspd::planner_detail;
-
-template <class T>
-T value_of(Result<T> result) {
-    if (result.ok()) return std::move(result).value();
-    std::cerr << "grasp_evidence: " << result.error().detail << "\n";
-    std::exit(1);
-}
+using bench::value_of;
 
 Eigen::Isometry3d pose_of(const nlohmann::json& grasp) {
     Eigen::Isometry3d X_OG = Eigen::Isometry3d::Identity();

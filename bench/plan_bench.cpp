@@ -22,17 +22,12 @@
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/mesh/read_object.hpp"
 #include "graspd/planner/planner.hpp"
+#include "value_of.hpp"
 
 namespace {
 
 using namespace graspd;
-
-template <class T>
-T value_of(Result<T> result) {
-    if (result.ok()) return std::move(result).value();
-    std::fprintf(stderr, "plan_bench: %s\n", result.error().detail.c_str());
-    std::exit(1);
-}
+using bench::value_of;
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "graspd/base/parallel.hpp"
 #include "graspd/base/point_grid.hpp"
 #include "graspd/contour/order_boundary.hpp"
 #include "graspd/contour/project_points.hpp"
@@ -164,19 +163,15 @@ std::vector<ClosingAxis> boundary_axes(const Concavity& concavity, std::int32_t 
 
     const auto enlarged_P = points_of(surface, concavity.enlarged);
     std::vector<std::vector<ClosingAxis>> axes(config.search.planes);
-    std::vector<StageLog> logs(config.search.planes);
-    for_blocks(axes.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const Eigen::Isometry3d& X_PW = frame.value().planes[i].X_OW;
-            const WorkingPlane plane{X_PW, enlarged_P, project_points(salient_P, X_PW),
-                                     project_points(enlarged_P, X_PW), surface.spacing_m};
-            axes[i] = axes_on(plane, gripper, config, logs[i]);
-        }
+    each_logged(axes.size(), log, [&](std::size_t i, StageLog& part) {
+        const Eigen::Isometry3d& X_PW = frame.value().planes[i].X_OW;
+        const WorkingPlane plane{X_PW, enlarged_P, project_points(salient_P, X_PW),
+                                 project_points(enlarged_P, X_PW), surface.spacing_m};
+        axes[i] = axes_on(plane, gripper, config, part);
     });
     std::vector<ClosingAxis> all;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        log.merge(logs[i]);
-        for (ClosingAxis& axis : axes[i]) {
+    for (const auto& of_plane : axes) {
+        for (ClosingAxis axis : of_plane) {
             axis.source = kBoundary;
             axis.concavity = index;
             axis.depth_m = concavity.depth_m;

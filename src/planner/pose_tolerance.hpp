@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "judgement.hpp"
 
 namespace graspd::planner_detail {

@@ -162,14 +162,10 @@ std::vector<std::vector<ClosingAxis>> axes_of(const std::vector<Concavity>& conc
                                               const SurfaceSamples& surface,
                                               const Judgement& judgement, StageLog& log) {
     std::vector<std::vector<ClosingAxis>> axes(concavities.size());
-    std::vector<StageLog> logs(concavities.size());
-    for_blocks(concavities.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            axes[i] = boundary_axes(concavities[i], static_cast<std::int32_t>(i), surface,
-                                    judgement.object, judgement.gripper, judgement.config, logs[i]);
-        }
+    each_logged(concavities.size(), log, [&](std::size_t i, StageLog& part) {
+        axes[i] = boundary_axes(concavities[i], static_cast<std::int32_t>(i), surface,
+                                judgement.object, judgement.gripper, judgement.config, part);
     });
-    for (const StageLog& part : logs) log.merge(part);
     return axes;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "graspd/base/parallel.hpp"
 #include "graspd/planner/plan_types.hpp"
 
 namespace graspd::planner_detail {
@@ -58,5 +59,16 @@ private:
     }
     std::vector<StageReport> stages_;
 };
+
+/// Calls work(i, part) for every i below count, side by side, each with a log of its own; the parts
+/// go to `log` in the order of i.
+template <class Work>
+void each_logged(std::size_t count, StageLog& log, Work&& work) {
+    std::vector<StageLog> parts(count);
+    for_blocks(count, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) work(i, parts[i]);
+    });
+    for (const StageLog& part : parts) log.merge(part);
+}
 
 }  // namespace graspd::planner_detail

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "support/collision_scene.hpp"
 #include "support/shapes.hpp"
 
 namespace graspd::planner_detail {
@@ -17,17 +18,7 @@ constexpr double kPalmToTcp_m = 0.035, kTop_m = 0.03, kWidth_m = 0.04;
 class PoseToleranceTest : public testing::Test {
 protected:
     PoseToleranceTest() {
-        Gripper gripper;
-        gripper.name = "hand";
-        gripper.max_width_m = 0.085;
-        gripper.finger_length_m = 0.045;
-        gripper.tip_offset_m = 0.01;
-        gripper.finger_width_m = 0.02;
-        gripper.finger_thickness_m = 0.01;
-        gripper.palm_depth_m = 0.08;
-        gripper.palm_width_m = 0.12;
-        gripper.palm_height_m = 0.04;
-        request_.grippers = {gripper};
+        request_.grippers = {test::parallel_85()};
         request_.object_O = test::box({kWidth_m, 0.06, 0.06});
     }
     /// @param palm_gap_m  [m] from the palm to the block's top
