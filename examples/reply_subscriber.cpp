@@ -85,7 +85,7 @@ bool listen(const Arguments& arguments) {
     example::Participant participant(arguments.domain, arguments.profile);
     auto* reader = participant.reader("rt/graspd/ranked_grasps",
                                       example::dds::TypeSupport(new msg::RankedGrasps_PubSubType()),
-                                      "graspd_reply_reader");
+                                      "/graspd/ranked_grasps");
     const auto end = Clock::now() + std::chrono::seconds(arguments.timeout_s);
     int seen = 0;
     while (arguments.count == 0 || seen < arguments.count) {

@@ -83,7 +83,7 @@ void publish(const Arguments& arguments) {
     example::Participant participant(arguments.domain, arguments.profile);
     auto* writer = participant.writer("rt/graspd/grasp_request",
                                       example::dds::TypeSupport(new GraspRequest_PubSubType()),
-                                      "graspd_request_writer");
+                                      "/graspd/grasp_request");
     wait_for_planner(*writer, arguments.timeout_s);
     if (!writer->write(&request)) throw std::runtime_error("the request could not be sent");
     // Leaving now would take an unsent request along.

@@ -9,10 +9,15 @@
 
 namespace graspd::cli {
 
-/// How `request` reaches a daemon.
+/// How long `status` listens by default: a first match can take 3 s, and a planner speaks once a
+/// second.
+constexpr std::int64_t kStatusWait_ms = 4000;
+
+/// How `request` and `status` reach a daemon.
 struct DdsArguments {
     std::optional<std::string> domain;  ///< as typed; absent: ROS_DOMAIN_ID, else 0
-    std::string profile;                ///< Fast DDS profiles; empty: dds/loopback.xml
+    std::string profile;                ///< Fast DDS profiles; empty: by the environment
+    std::string ros_namespace = "/";    ///< of the daemon's node
     double timeout_ms = 0.0;            ///< [ms] for each attempt; 0: time budget and some more
     std::uint32_t retries = 3;          ///< on silence and on OVERLOADED
 };
@@ -38,6 +43,9 @@ int run_simulate(const PlanArguments& plan, const std::string& config_file,
 
 /// Has a daemon plan over DDS. Only in builds with GRASPD_BUILD_DDS.
 int run_request(const PlanArguments& plan, const DdsArguments& dds, const OutputArguments& output);
+
+/// Lists the planners that are alive. Only in builds with GRASPD_BUILD_DDS.
+int run_status(const DdsArguments& dds, const OutputArguments& output);
 
 /// Prints the concavity of every vertex or point of a file, in the file's order.
 /// @param method  any_angle, tetrahedral, or empty: as configured

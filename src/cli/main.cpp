@@ -87,11 +87,27 @@ void add_simulate(CLI::App& app, Arguments& to, std::function<int()>& run) {
 }
 
 #ifdef GRASPD_WITH_DDS
+void add_dds(CLI::App& command, Arguments& to) {
+    command.add_option("--domain", to.dds.domain, "DDS domain; default: ROS_DOMAIN_ID, else 0");
+    command.add_option("--profile", to.dds.profile,
+                       "Fast DDS profiles; default: loopback, unless ROS_AUTOMATIC_DISCOVERY_RANGE "
+                       "or ROS_LOCALHOST_ONLY says otherwise");
+    command.add_option("--namespace", to.dds.ros_namespace, "of the daemon's node, such as /cell1");
+}
+
+void add_status(CLI::App& app, Arguments& to, std::function<int()>& run) {
+    auto* status = app.add_subcommand("status", "list the planners that are alive");
+    add_dds(*status, to);
+    add_format(*status, to);
+    status->add_option("--timeout", to.dds.timeout_ms, "[ms] how long to listen; default: 4000")
+        ->check(CLI::PositiveNumber);
+    status->callback([&] { run = [&] { return run_status(to.dds, to.output); }; });
+}
+
 void add_request(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* request = app.add_subcommand("request", "have a running graspd plan, over DDS");
     add_plan(*request, to);
-    request->add_option("--domain", to.dds.domain, "DDS domain; default: ROS_DOMAIN_ID, else 0");
-    request->add_option("--profile", to.dds.profile, "Fast DDS profiles; default: loopback only");
+    add_dds(*request, to);
     request->add_option("--timeout", to.dds.timeout_ms, "[ms] for each attempt")
         ->check(CLI::PositiveNumber);
     request->add_option("--retries", to.dds.retries, "attempts after the first");
@@ -107,6 +123,7 @@ void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     add_simulate(app, to, run);
 #ifdef GRASPD_WITH_DDS
     add_request(app, to, run);
+    add_status(app, to, run);
 #endif
     auto* concavity =
         app.add_subcommand("concavity", "one line a vertex or point as stored: index value_m flag");

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "commands.hpp"
-#include "graspd/config/domain_id.hpp"
+#include "dds_settings_of.hpp"
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/config/version.hpp"
 #include "graspd/dds/planner_client.hpp"
@@ -49,19 +49,15 @@ Result<PlanReply> ask(const PlanRequest& request, const DdsSettings& settings,
 int run_request(const PlanArguments& arguments, const DdsArguments& dds,
                 const OutputArguments& output) {
     using Clock = std::chrono::steady_clock;
-    const auto domain = choose_domain(dds.domain);
-    if (!domain.ok()) return fail(domain.error());
+    const auto settings = dds_settings_of(dds);
+    if (!settings.ok()) return fail(settings.error());
     const auto profiles = find_profiles();
     if (!profiles.ok()) return fail(profiles.error());
     const auto request = make_request(arguments, profiles.value());
     if (!request.ok()) return fail(request.error());
-    DdsSettings settings;
-    settings.domain = domain.value();
-    settings.profile_file =
-        dds.profile.empty() ? (profiles.value() / "dds" / "loopback.xml").string() : dds.profile;
 
     const auto start = Clock::now();
-    const auto reply = ask(request.value(), settings, dds, timeout_of(dds, arguments));
+    const auto reply = ask(request.value(), settings.value(), dds, timeout_of(dds, arguments));
     if (!reply.ok()) return fail(reply.error());
     const std::chrono::duration<double, std::milli> taken = Clock::now() - start;
     return finish(reply.value(), request.value().grippers, {version(), "", taken.count()}, output);

@@ -117,6 +117,30 @@ std::optional<PlanError> assign_yaml(const std::filesystem::path& file, const YA
     return assign_group({file, settings, foreign_groups}, root, {});
 }
 
+std::optional<PlanError> assign_parameter(const std::string& name, const std::string& value,
+                                          const std::vector<SettingRef>& settings) {
+    const auto setting = std::ranges::find_if(
+        settings, [&](const SettingRef& known) { return join(known.path) == name; });
+    const std::string said = "parameter " + name + " = " + value;
+    if (setting == settings.end()) {
+        return PlanError{
+            PlanErrorCode::kInvalidInput,
+            said + ": graspd has no such parameter (graspd --print-config lists them)"};
+    }
+    const auto wanted = std::visit(
+        [&](auto* field) -> std::string {
+            try {
+                return parse_scalar(YAML::Load(value), *field) ? "" : scalar_name(*field);
+            } catch (const YAML::Exception&) {
+                return scalar_name(*field);
+            }
+        },
+        setting->field);
+    if (wanted.empty()) return std::nullopt;
+    const std::string in = setting->range.empty() ? "" : " in " + setting->range;
+    return PlanError{PlanErrorCode::kInvalidInput, said + " must be " + wanted + in};
+}
+
 std::string print_yaml(const std::vector<SettingRef>& settings) {
     std::string text;
     std::vector<std::string> open;  // the groups whose line has been written

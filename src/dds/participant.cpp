@@ -3,11 +3,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
+#include <set>
 #include <string>
 
+#include <fastdds/rtps/attributes/RTPSParticipantAttributes.h>
+#include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/log/Log.hpp>
 #include <fastdds/dds/log/StdoutErrConsumer.hpp>
+
+#include "type_hashes.hpp"
 
 namespace graspd::dds {
 namespace {
@@ -58,14 +63,35 @@ std::optional<PlanError> load_profiles(const std::string& file) {
     return std::nullopt;
 }
 
-/// What a profile must say for the daemon's promises to hold.
+/// As rmw puts it: values that end with ';', such as "enclave=/;".
+void set_user_data(fast::UserDataQosPolicy& user_data, const std::string& text) {
+    user_data.data_vec(std::vector<eprosima::fastrtps::rtps::octet>(text.begin(), text.end()));
+}
+
 template <class Qos>
-std::string broken_contract(const Qos& qos, fast::DurabilityQosPolicyKind durability) {
-    if (qos.reliability().kind != fast::RELIABLE_RELIABILITY_QOS) return "must be RELIABLE";
-    if (qos.history().kind != fast::KEEP_ALL_HISTORY_QOS) return "must be KEEP_ALL";
-    if (qos.durability().kind == durability) return "";
-    return durability == fast::VOLATILE_DURABILITY_QOS ? "must be VOLATILE"
-                                                       : "must be TRANSIENT_LOCAL";
+void set_type_hash(Qos& qos, const std::string& type_name) {
+    const std::string hash(type_hash(type_name));
+    if (!hash.empty()) set_user_data(qos.user_data(), "typehash=" + hash + ";");
+}
+
+/// Looks for participants at further hosts, at the ports of the domain.
+std::optional<PlanError> add_peers(const std::vector<std::string>& hosts,
+                                   fast::DomainParticipantQos& qos) {
+    using eprosima::fastrtps::rtps::IPLocator;
+    for (const std::string& host : hosts) {
+        const auto addresses = IPLocator::isIPv4(host) ? std::set<std::string>{host}
+                                                       : IPLocator::resolveNameDNS(host).first;
+        if (addresses.empty()) {
+            return PlanError{PlanErrorCode::kInvalidInput,
+                             "static peer " + host + " has no IPv4 address"};
+        }
+        for (const std::string& address : addresses) {
+            eprosima::fastrtps::rtps::Locator_t locator(LOCATOR_KIND_UDPv4, 0);
+            IPLocator::setIPv4(locator, address);
+            qos.wire_protocol().builtin.initialPeersList.push_back(locator);
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace
@@ -89,6 +115,10 @@ Result<std::unique_ptr<Participant>> Participant::join(const DdsSettings& settin
         return bad_file(settings.profile_file,
                         std::string("has no valid profile ") + kParticipantProfile);
     }
+    if (auto error = add_peers(settings.static_peers, qos)) return *std::move(error);
+    if (settings.node.gid_bytes != GidBytes::kOff) {
+        set_user_data(qos.user_data(), "enclave=" + settings.node.enclave + ";");
+    }
     std::unique_ptr<Participant> out(new Participant);
     out->participant_ = factory().create_participant(settings.domain, qos);
     if (out->participant_ == nullptr) {
@@ -111,14 +141,16 @@ Participant::~Participant() {
 }
 
 std::optional<PlanError> Participant::check_profiles(const std::string& file) const {
-    const auto check = [&](const char* name, auto qos, auto durability,
+    const auto check = [&](const Contract& contract, const std::string& kind, auto qos,
                            auto&& get) -> std::optional<PlanError> {
-        if (get(name, qos) != ReturnCode_t::RETCODE_OK) {
-            return bad_file(file, std::string("has no valid profile ") + name);
+        const std::string name = kind + " " + contract.profile;
+        if (get(contract.profile, qos) != ReturnCode_t::RETCODE_OK) {
+            if (!contract.required) return std::nullopt;
+            return bad_file(file, "has no valid profile " + name);
         }
-        const std::string broken = broken_contract(qos, durability);
+        const std::string broken = broken_contract(qos, contract);
         if (broken.empty()) return std::nullopt;
-        return bad_file(file, std::string(name) + " " + broken);
+        return bad_file(file, name + " " + broken);
     };
     const auto reader = [this](const char* name, fast::DataReaderQos& qos) {
         return subscriber_->get_datareader_qos_from_profile(name, qos);
@@ -126,33 +158,44 @@ std::optional<PlanError> Participant::check_profiles(const std::string& file) co
     const auto writer = [this](const char* name, fast::DataWriterQos& qos) {
         return publisher_->get_datawriter_qos_from_profile(name, qos);
     };
-    constexpr auto kVolatile = fast::VOLATILE_DURABILITY_QOS;
-    constexpr auto kLocal = fast::TRANSIENT_LOCAL_DURABILITY_QOS;
-    auto error = check(kRequestReader, fast::DataReaderQos{}, kVolatile, reader);
-    if (!error) error = check(kReplyReader, fast::DataReaderQos{}, kLocal, reader);
-    if (!error) error = check(kRequestWriter, fast::DataWriterQos{}, kVolatile, writer);
-    if (!error) error = check(kReplyWriter, fast::DataWriterQos{}, kLocal, writer);
-    return error;
+    for (const Contract& contract :
+         {kRequestEnds, kReplyEnds, kCancelEnds, kStatusEnds, kDiagnosticsEnds, kServiceRequestEnds,
+          kServiceReplyEnds, kGraphEnds}) {
+        auto error = check(contract, "data_reader", fast::DataReaderQos{}, reader);
+        if (!error) error = check(contract, "data_writer", fast::DataWriterQos{}, writer);
+        if (error) return error;
+    }
+    return std::nullopt;
 }
 
-fast::Topic* Participant::create_topic(const TopicOf& topic) {
+/// A topic may have both a reader and a writer here.
+fast::Topic* Participant::find_topic(const TopicOf& topic) {
+    if (auto* known = participant_->lookup_topicdescription(topic.name)) {
+        return dynamic_cast<fast::Topic*>(known);
+    }
     if (topic.type.register_type(participant_) != ReturnCode_t::RETCODE_OK) return nullptr;
     return participant_->create_topic(topic.name, topic.type.get_type_name(),
                                       fast::TOPIC_QOS_DEFAULT);
 }
 
-fast::DataReader* Participant::create_reader(const TopicOf& topic, const char* profile,
+fast::DataReader* Participant::create_reader(const TopicOf& topic,
                                              fast::DataReaderListener* listener) {
-    fast::Topic* made = create_topic(topic);
+    fast::Topic* made = find_topic(topic);
     if (made == nullptr) return nullptr;
-    return subscriber_->create_datareader_with_profile(made, profile, listener);
+    fast::DataReaderQos qos = reader_qos(topic.contract);
+    subscriber_->get_datareader_qos_from_profile(topic.contract.profile, qos);
+    set_type_hash(qos, topic.type.get_type_name());
+    return subscriber_->create_datareader(made, qos, listener);
 }
 
-fast::DataWriter* Participant::create_writer(const TopicOf& topic, const char* profile,
+fast::DataWriter* Participant::create_writer(const TopicOf& topic,
                                              fast::DataWriterListener* listener) {
-    fast::Topic* made = create_topic(topic);
+    fast::Topic* made = find_topic(topic);
     if (made == nullptr) return nullptr;
-    return publisher_->create_datawriter_with_profile(made, profile, listener);
+    fast::DataWriterQos qos = writer_qos(topic.contract);
+    publisher_->get_datawriter_qos_from_profile(topic.contract.profile, qos);
+    set_type_hash(qos, topic.type.get_type_name());
+    return publisher_->create_datawriter(made, qos, listener);
 }
 
 }  // namespace graspd::dds

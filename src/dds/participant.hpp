@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -11,26 +13,19 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
+#include "endpoints.hpp"
 #include "graspd/base/result.hpp"
 #include "graspd/dds/dds_settings.hpp"
 
 namespace graspd::dds {
 
-namespace fast = eprosima::fastdds::dds;
-
-// The topics, and the profiles that every profile file must have.
-inline constexpr const char* kRequestTopic = "rt/graspd/grasp_request";
-inline constexpr const char* kReplyTopic = "rt/graspd/ranked_grasps";
 inline constexpr const char* kParticipantProfile = "graspd_participant";
-inline constexpr const char* kRequestReader = "graspd_request_reader";
-inline constexpr const char* kRequestWriter = "graspd_request_writer";
-inline constexpr const char* kReplyReader = "graspd_reply_reader";
-inline constexpr const char* kReplyWriter = "graspd_reply_writer";
 
 /// A topic with the type that travels on it.
 struct TopicOf {
-    const char* name;
+    std::string name;
     fast::TypeSupport type;
+    Contract contract;
 };
 
 /// A DDS participant with the endpoints made through it; the destructor removes them all, after
@@ -49,16 +44,18 @@ public:
     Participant& operator=(const Participant&) = delete;
     ~Participant();
 
-    /// Null when the middleware refuses. The listener must outlive this participant.
-    fast::DataReader* create_reader(const TopicOf& topic, const char* profile,
-                                    fast::DataReaderListener* listener);
-    fast::DataWriter* create_writer(const TopicOf& topic, const char* profile,
-                                    fast::DataWriterListener* listener);
+    /// Null when the middleware refuses. The listener must outlive this participant. The endpoint
+    /// carries the hash of its type (src/dds/type_hashes.hpp) as ROS 2 nodes do from Iron on.
+    fast::DataReader* create_reader(const TopicOf& topic, fast::DataReaderListener* listener);
+    fast::DataWriter* create_writer(const TopicOf& topic, fast::DataWriterListener* listener);
+
+    /// Prefix and entity id of this participant.
+    eprosima::fastrtps::rtps::GUID_t guid() const { return participant_->guid(); }
 
 private:
     Participant() = default;
     std::optional<PlanError> check_profiles(const std::string& file) const;
-    fast::Topic* create_topic(const TopicOf& topic);
+    fast::Topic* find_topic(const TopicOf& topic);
 
     fast::DomainParticipant* participant_ = nullptr;
     fast::Publisher* publisher_ = nullptr;

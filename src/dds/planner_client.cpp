@@ -102,10 +102,12 @@ public:
         participant_ = std::move(joined).value();
         guard_->max_payload_bytes = settings.max_payload_bytes;
         const auto* reader = participant_->create_reader(
-            {kReplyTopic, fast::TypeSupport(new ReplyType(guard_))}, kReplyReader, &listener_);
+            {settings.names.ranked_grasps, fast::TypeSupport(new ReplyType(guard_)), kReplyEnds},
+            &listener_);
         writer_ =
-            participant_->create_writer({kRequestTopic, fast::TypeSupport(new RequestType(guard_))},
-                                        kRequestWriter, &listener_);
+            participant_->create_writer({settings.names.grasp_request,
+                                         fast::TypeSupport(new RequestType(guard_)), kRequestEnds},
+                                        &listener_);
         if (writer_ != nullptr && reader != nullptr) return std::nullopt;
         return PlanError{PlanErrorCode::kInternal, "the middleware refused an endpoint"};
     }

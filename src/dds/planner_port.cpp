@@ -1,17 +1,21 @@
 #include "graspd/dds/planner_port.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
+#include <optional>
 #include <utility>
 
 #include <graspd_msgs/graspdPubSubTypes.h>
 
 #include "convert_reply.hpp"
-#include "convert_request.hpp"
+#include "convert_state.hpp"
 #include "guarded_type.hpp"
 #include "participant.hpp"
+#include "received_request.hpp"
+#include "ros_graph.hpp"
+#include "service_replies.hpp"
+#include "taking_listener.hpp"
 
 namespace graspd {
 namespace dds {
@@ -19,139 +23,85 @@ namespace {
 
 using eprosima::fastrtps::types::ReturnCode_t;
 
-/// A request with the hash that the guard takes of its payload.
-struct ReceivedSample : wire::GraspRequest_ {
-    std::uint64_t payload_hash = 0;
-};
 using RequestType = GuardedType<wire::GraspRequest_PubSubType, ReceivedSample>;
 using ReplyType = GuardedType<wire::RankedGrasps_PubSubType>;
+using CancelType = GuardedType<wire::CancelRequest_PubSubType>;
+using StatusType = GuardedType<wire::PlannerStatus_PubSubType>;
+using DiagnosticsType = GuardedType<diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>;
 
-std::array<std::uint8_t, 16> bytes_of(const eprosima::fastrtps::rtps::GUID_t& guid) {
-    std::array<std::uint8_t, 16> out{};
-    const auto rest = std::ranges::copy(guid.guidPrefix.value, out.begin()).out;
-    std::ranges::copy(guid.entityId.value, rest);
-    return out;
-}
-
-class ReceivedRequest final : public IncomingRequest {
-public:
-    /// To be filled by the middleware; complete() must follow.
-    ReceivedSample sample;
-
-    void complete(const fast::SampleInfo& info) {
-        received_ = std::chrono::steady_clock::now();
-        identity_.writer = bytes_of(info.sample_identity.writer_guid());
-        identity_.client_id = printable(sample.client_id());
-        identity_.request_id = printable(sample.request_id());
-        identity_.payload_hash = sample.payload_hash;
-    }
-
-    const RequestIdentity& identity() const override { return identity_; }
-    std::chrono::steady_clock::time_point received() const override { return received_; }
-    const std::string& frame_id() const override { return sample.header().frame_id(); }
-    const std::string& object_key() const override { return sample.object_key(); }
-    Result<PlanRequest> convert(std::span<const Gripper> known) const override {
-        return read_request(sample, known);
-    }
-
-private:
-    RequestIdentity identity_;
-    std::chrono::steady_clock::time_point received_;
-};
-
-/// Takes each request from the middleware as soon as it is there and hands it on. The middleware
-/// may hold its own lock while it calls, so none of ours is held while the middleware is called.
-class RequestListener final : public fast::DataReaderListener {
-public:
-    explicit RequestListener(RequestHandler handler) : handler_(std::move(handler)) {}
-
-    void on_data_available(fast::DataReader* reader) override {
-        if (!enter()) return;
-        try {
-            while (!stopped_ && take_one(*reader)) {
-            }
-        } catch (...) {  // out of memory: what was not taken stays with the middleware
-        }
-        leave();
-    }
-
-    /// Returns once no call is under way.
-    void stop() {
-        std::unique_lock lock(mutex_);
-        stopped_ = true;
-        left_.wait(lock, [this] { return calls_ == 0; });
-    }
-
-private:
-    bool enter() {
-        const std::lock_guard lock(mutex_);
-        if (stopped_) return false;
-        ++calls_;
-        return true;
-    }
-    void leave() {
-        const std::lock_guard lock(mutex_);
-        --calls_;
-        left_.notify_all();
-    }
-
-    bool take_one(fast::DataReader& reader) {
-        auto request = std::make_unique<ReceivedRequest>();
-        fast::SampleInfo info;
-        if (reader.take_next_sample(&request->sample, &info) != ReturnCode_t::RETCODE_OK) {
-            return false;
-        }
-        if (!info.valid_data) return true;  // a writer that left, no sample
-        request->complete(info);
-        handler_(std::move(request));
-        return true;
-    }
-
-    std::mutex mutex_;
-    std::condition_variable left_;
-    std::atomic<bool> stopped_{false};
-    int calls_ = 0;
-    RequestHandler handler_;
-};
+constexpr const char* kServiceRequestType = "graspd_msgs::srv::dds_::PlanGrasps_Request_";
+constexpr std::chrono::milliseconds kCallerPatience{100};
 
 class DdsPlannerPort final : public PlannerPort {
 public:
-    DdsPlannerPort(const DdsSettings& settings, RequestHandler handler)
-        : settings_(settings), listener_(std::move(handler)) {
+    DdsPlannerPort(const DdsSettings& settings, RequestHandler request, CancelHandler cancel)
+        : settings_(settings),
+          handle_request_(std::move(request)),
+          handle_cancel_(std::move(cancel)) {
         guard_->max_payload_bytes = settings.max_payload_bytes;
     }
-    ~DdsPlannerPort() override { listener_.stop(); }
+    ~DdsPlannerPort() override { DdsPlannerPort::stop_listening(); }
 
-    /// The writer first: a request may arrive as soon as there is a reader.
+    /// Writers first: a request may arrive as soon as there is a reader.
     std::optional<PlanError> open() {
         auto joined = Participant::join(settings_);
         if (!joined.ok()) return joined.error();
         participant_ = std::move(joined).value();
-        writer_ = participant_->create_writer(
-            {kReplyTopic, fast::TypeSupport(new ReplyType(guard_))}, kReplyWriter, nullptr);
-        const auto* reader =
-            participant_->create_reader({kRequestTopic, fast::TypeSupport(new RequestType(guard_))},
-                                        kRequestReader, &listener_);
-        if (writer_ != nullptr && reader != nullptr) return std::nullopt;
-        return PlanError{PlanErrorCode::kInternal, "the middleware refused an endpoint"};
+        const WireNames& names = settings_.names;
+        reply_writer_ = writer<ReplyType>(names.ranked_grasps, kReplyEnds);
+        status_writer_ = writer<StatusType>(names.status, kStatusEnds);
+        diagnostics_writer_ = writer<DiagnosticsType>(names.diagnostics, kDiagnosticsEnds);
+        auto* service_writer = service_replies_.open(*participant_, names.service_reply, guard_);
+        const std::array writers = {reply_writer_, status_writer_, diagnostics_writer_,
+                                    service_writer};
+        if (std::ranges::count(writers, nullptr) > 0) return refused();
+        const std::array readers = {
+            reader<RequestType>(names.grasp_request, kRequestEnds, request_listener_),
+            reader<CancelType>(names.cancel, kCancelEnds, cancel_listener_),
+            participant_->create_reader(
+                {names.service_request, fast::TypeSupport(new RawType(kServiceRequestType, guard_)),
+                 kServiceRequestEnds},
+                &service_listener_)};
+        if (std::ranges::count(readers, nullptr) > 0) return refused();
+        if (settings_.node.gid_bytes == GidBytes::kOff) return std::nullopt;
+        graph_.emplace(settings_.node, readers, writers);
+        return graph_->open(*participant_, guard_) ? std::nullopt : refused();
     }
 
     bool write(const OutgoingReply& reply) override {
         bool written = false;
         try {
             wire::RankedGrasps_ sample = write_reply(reply.reply, envelope_of(reply));
-            written = writer_->write(&sample);
+            const auto* request = dynamic_cast<const ReceivedRequest*>(reply.to.get());
+            const bool called = request != nullptr && request->call.has_value();
+            written = called ? service_replies_.write(*request, sample, kCallerPatience)
+                             : reply_writer_->write(&sample);
         } catch (...) {  // out of memory
         }
         if (!written) lost_.fetch_add(1, std::memory_order_relaxed);
         return written;
     }
 
-    void stop_listening() override { listener_.stop(); }
+    bool write_state(PlannerState state) override {
+        state.planner_id = settings_.planner_id;
+        state.version = settings_.version;
+        state.config_hash = settings_.config_hash;
+        state.rejected_payloads = rejected_payloads();
+        auto status = dds::write_state(state);
+        auto diagnostics = write_diagnostics(state, full_name(settings_.node));
+        const bool said = status_writer_->write(&status);
+        return diagnostics_writer_->write(&diagnostics) && said;
+    }
+
+    void stop_listening() override {
+        request_listener_.stop();
+        service_listener_.stop();
+        cancel_listener_.stop();
+    }
 
     bool wait_acknowledged(std::chrono::milliseconds timeout) override {
         const double seconds = std::chrono::duration<double>(timeout).count();
-        return writer_->wait_for_acknowledgments(eprosima::fastrtps::Duration_t(
+        return reply_writer_->wait_for_acknowledgments(eprosima::fastrtps::Duration_t(
                    static_cast<long double>(seconds))) == ReturnCode_t::RETCODE_OK;
     }
 
@@ -159,6 +109,56 @@ public:
     std::uint64_t lost_replies() const override { return lost_; }
 
 private:
+    static std::optional<PlanError> refused() {
+        return PlanError{PlanErrorCode::kInternal, "the middleware refused an endpoint"};
+    }
+    template <class Type>
+    fast::DataWriter* writer(const std::string& topic, const Contract& contract) {
+        return participant_->create_writer({topic, fast::TypeSupport(new Type(guard_)), contract},
+                                           nullptr);
+    }
+    template <class Type>
+    fast::DataReader* reader(const std::string& topic, const Contract& contract,
+                             TakingListener& listener) {
+        return participant_->create_reader({topic, fast::TypeSupport(new Type(guard_)), contract},
+                                           &listener);
+    }
+
+    bool take_request(fast::DataReader& reader) {
+        auto request = std::make_unique<ReceivedRequest>();
+        fast::SampleInfo info;
+        if (reader.take_next_sample(&request->sample, &info) != ReturnCode_t::RETCODE_OK) {
+            return false;
+        }
+        if (!info.valid_data) return true;  // a writer that left, no sample
+        request->complete(info);
+        handle_request_(std::move(request));
+        return true;
+    }
+
+    bool take_call(fast::DataReader& reader) {
+        Bytes payload;
+        fast::SampleInfo info;
+        if (reader.take_next_sample(&payload, &info) != ReturnCode_t::RETCODE_OK) return false;
+        if (!info.valid_data) return true;
+        if (auto request = read_service_call(std::move(payload), info)) {
+            handle_request_(std::move(request));
+        } else {
+            guard_->rejected.fetch_add(1, std::memory_order_relaxed);
+        }
+        return true;
+    }
+
+    bool take_cancel(fast::DataReader& reader) {
+        wire::CancelRequest_ order;
+        fast::SampleInfo info;
+        if (reader.take_next_sample(&order, &info) != ReturnCode_t::RETCODE_OK) return false;
+        if (info.valid_data && handle_cancel_) {
+            handle_cancel_({printable(order.client_id()), printable(order.request_id())});
+        }
+        return true;
+    }
+
     ReplyEnvelope envelope_of(const OutgoingReply& reply) const {
         ReplyEnvelope out;
         if (const auto* request = dynamic_cast<const ReceivedRequest*>(reply.to.get())) {
@@ -176,19 +176,30 @@ private:
     }
 
     DdsSettings settings_;
+    const RequestHandler handle_request_;
+    const CancelHandler handle_cancel_;
     std::shared_ptr<PayloadGuard> guard_ = std::make_shared<PayloadGuard>();
     std::atomic<std::uint64_t> lost_{0};
-    RequestListener listener_;                  // outlives the participant
-    std::unique_ptr<Participant> participant_;  // removes the endpoints
-    fast::DataWriter* writer_ = nullptr;
+    // Listeners outlive the participant, which removes the endpoints.
+    TakingListener request_listener_{[this](auto& from) { return take_request(from); }};
+    TakingListener service_listener_{[this](auto& from) { return take_call(from); }};
+    TakingListener cancel_listener_{[this](auto& from) { return take_cancel(from); }};
+    ServiceReplies service_replies_;
+    std::optional<RosGraph> graph_;
+    std::unique_ptr<Participant> participant_;
+    fast::DataWriter* reply_writer_ = nullptr;
+    fast::DataWriter* status_writer_ = nullptr;
+    fast::DataWriter* diagnostics_writer_ = nullptr;
 };
 
 }  // namespace
 }  // namespace dds
 
 Result<std::unique_ptr<PlannerPort>> PlannerPort::open(const DdsSettings& settings,
-                                                       RequestHandler handler) {
-    auto port = std::make_unique<dds::DdsPlannerPort>(settings, std::move(handler));
+                                                       RequestHandler handler,
+                                                       CancelHandler cancel) {
+    auto port =
+        std::make_unique<dds::DdsPlannerPort>(settings, std::move(handler), std::move(cancel));
     if (auto error = port->open()) return *std::move(error);
     return std::unique_ptr<PlannerPort>(std::move(port));
 }

@@ -38,6 +38,12 @@ public:
         return item;
     }
 
+    /// Takes an item out of turn, if it is still inside.
+    void remove(const T& item) {
+        const std::scoped_lock lock(mutex_);
+        std::erase(items_, item);
+    }
+
     /// Nothing is taken in from now on; what is inside can still be popped.
     void close() {
         {

@@ -1,6 +1,7 @@
 #include "daemon_arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 
 #include "graspd/config/load_config.hpp"
@@ -8,9 +9,26 @@
 
 namespace graspd::server {
 
+namespace {
+
+bool is_for_every_node(const std::string& parameter) {
+    return parameter == "use_sim_time" || parameter.starts_with("qos_overrides.");
+}
+
+}  // namespace
+
 std::variant<DaemonArguments, int> parse_daemon_arguments(int argc, const char* const* argv) {
     CLI::App app("graspd: plans grasps for whoever publishes an object over DDS");
+    app.footer("After --ros-args: as for any ROS 2 node (-r, -p, --params-file, --log-level).");
     DaemonArguments to;
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    auto ros = take_ros_arguments(words);
+    if (!ros.ok()) {
+        std::cerr << "graspd: " << ros.error().detail << '\n';
+        return 2;
+    }
+    to.ros = std::move(ros).value();
+    to.log_level = to.ros.log_level.value_or(to.log_level);
     app.set_version_flag("--version", std::string("graspd ") + version());
     app.add_option("--config", to.config_file, "planner.yaml; default: built-in values");
     app.add_option("--profile", to.profile_file, "Fast DDS profiles; default: loopback only");
@@ -20,7 +38,8 @@ std::variant<DaemonArguments, int> parse_daemon_arguments(int argc, const char* 
         ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}));
     app.add_flag("--print-config", to.print_config, "print the settings in force and leave");
     try {
-        app.parse(argc, argv);
+        std::ranges::reverse(words);  // as CLI11 wants them
+        app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         const bool asked = error.get_exit_code() == 0;  // --help or --version
         app.exit(error, std::cout, std::cerr);
@@ -36,9 +55,29 @@ Result<DaemonConfig> daemon_config(const DaemonArguments& arguments) {
         if (!loaded.ok()) return loaded.error();
         config = std::move(loaded).value();
     }
+    RosParameters parameters;
+    for (const std::string& file : arguments.ros.params_files) {
+        const auto read = read_params_file(file, arguments.ros);
+        if (!read.ok()) return read.error();
+        parameters.insert(parameters.end(), read.value().begin(), read.value().end());
+    }
+    const RosParameters& given = arguments.ros.parameters;
+    parameters.insert(parameters.end(), given.begin(), given.end());
+    for (const auto& [name, value] : parameters) {
+        if (is_for_every_node(name)) continue;
+        if (auto error = set_parameter(config, name, value)) return *std::move(error);
+    }
     config.server.workers = arguments.workers.value_or(config.server.workers);
     if (auto error = validate(config)) return *std::move(error);
     return config;
+}
+
+RosNode ros_node(const RosArguments& ros, const RosConfig& config) {
+    RosNode node{ros.node_name, ros.node_namespace, ros.enclave, GidBytes::kAuto};
+    if (config.gid_bytes == "off") node.gid_bytes = GidBytes::kOff;
+    if (config.gid_bytes == "16") node.gid_bytes = GidBytes::k16;
+    if (config.gid_bytes == "24") node.gid_bytes = GidBytes::k24;
+    return node;
 }
 
 }  // namespace graspd::server

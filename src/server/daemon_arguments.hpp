@@ -6,6 +6,8 @@
 #include <variant>
 
 #include "graspd/base/result.hpp"
+#include "graspd/config/ros_arguments.hpp"
+#include "graspd/dds/dds_settings.hpp"
 #include "server_config.hpp"
 
 namespace graspd::server {
@@ -18,6 +20,7 @@ struct DaemonArguments {
     std::optional<std::uint32_t> workers;  ///< absent: as configured
     std::string log_level = "info";        ///< debug, info, warning, error or off
     bool print_config = false;             ///< print the settings in force and leave
+    RosArguments ros;                      ///< what stands after --ros-args
 };
 
 /// Reads the command line.
@@ -25,8 +28,13 @@ struct DaemonArguments {
 ///         --version, 2 after a wrong argument, which standard error explains
 std::variant<DaemonArguments, int> parse_daemon_arguments(int argc, const char* const* argv);
 
-/// The settings in force: the file over the defaults, --workers over both.
+/// The settings in force: the file over the defaults, then ROS 2's parameter files, its -p, and
+/// --workers. The parameters use_sim_time and qos_overrides.*, which launch files set for every
+/// node, are passed over: no result depends on the clock, and the QoS is the contract's.
 /// @return kUnreadableFile or kInvalidInput naming key, value and range
 Result<DaemonConfig> daemon_config(const DaemonArguments& arguments);
+
+/// The node as ROS 2 tools will show it.
+RosNode ros_node(const RosArguments& ros, const RosConfig& config);
 
 }  // namespace graspd::server

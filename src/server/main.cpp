@@ -7,13 +7,17 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "beat.hpp"
 #include "daemon_arguments.hpp"
+#include "describe_state.hpp"
 #include "graspd/base/freed_memory.hpp"
 #include "graspd/config/domain_id.hpp"
 #include "graspd/config/load_config.hpp"
 #include "graspd/config/load_gripper.hpp"
+#include "graspd/config/network_profile.hpp"
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/config/version.hpp"
+#include "graspd/config/wire_names.hpp"
 #include "planner_service.hpp"
 #include "profile_interfaces.hpp"
 #include "request_line.hpp"
@@ -33,6 +37,7 @@ constexpr int kExitUsage = 2;
 // middleware to leave the domain.
 constexpr std::chrono::milliseconds kStopGrace{500};  // PlannerService::stop takes twice that
 constexpr std::chrono::milliseconds kAcknowledgeWait{300};
+constexpr std::chrono::milliseconds kStatusPeriod{1000};
 
 /// Everything that was read before a thread starts.
 struct Setup {
@@ -54,11 +59,16 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     if (!profiles.ok()) return profiles.error();
     auto grippers = load_grippers(profiles.value() / "grippers");
     if (!grippers.ok()) return grippers.error();
+    auto network = choose_network(arguments.profile_file, profiles.value(), network_environment());
+    if (!network.ok()) return network.error();
+    auto names = wire_names(arguments.ros);
+    if (!names.ok()) return names.error();
     DdsSettings dds;
     dds.domain = domain.value();
-    dds.profile_file = arguments.profile_file.empty()
-                           ? (profiles.value() / "dds" / "loopback.xml").string()
-                           : arguments.profile_file;
+    dds.profile_file = network.value().profile_file;
+    dds.static_peers = network.value().static_peers;
+    dds.names = std::move(names).value();
+    dds.node = ros_node(arguments.ros, config.ros);
     dds.planner_id = process_name();
     dds.version = version();
     dds.config_hash = config_hash(config.planner);
@@ -81,11 +91,18 @@ void log_ready(const Setup& setup) {
     }
     const DdsSettings& dds = setup.dds;
     spdlog::info(
-        "event=ready domain={} interfaces={} profile={} planner_id={} version={} config_hash={} "
+        "event=ready domain={} interfaces={} profile={} node={} request_topic={} planner_id={} "
+        "version={} config_hash={} "
         "workers={} queue_capacity={} grippers={}",
         dds.domain, log_value(profile_file_interfaces(dds.profile_file)),
-        log_value(dds.profile_file), log_value(dds.planner_id), dds.version, dds.config_hash,
+        log_value(dds.profile_file), log_value(full_name(dds.node)),
+        log_value(dds.names.grasp_request), log_value(dds.planner_id), dds.version, dds.config_hash,
         setup.config.server.workers, setup.config.server.queue_capacity, log_value(names));
+}
+
+void log_cancel(const CancelOrder& order, std::size_t cancelled) {
+    spdlog::info("event=cancel id={} client={} cancelled={}", log_value(order.request_id),
+                 log_value(order.client_id), cancelled);
 }
 
 void log_received(const RequestIdentity& identity) {
@@ -129,19 +146,29 @@ int serve(const Setup& setup, const sigset_t& signals) {
              return plan(request, setup.config.planner, stop_requested);
          },
          [&](const OutgoingReply& reply) { return port->write(reply); }, log_answer});
-    auto opened = PlannerPort::open(setup.dds, [&](auto request) {
-        log_received(request->identity());
-        service.handle(std::move(request));
-    });
+    auto opened = PlannerPort::open(
+        setup.dds,
+        [&](auto request) {
+            log_received(request->identity());
+            service.handle(std::move(request));
+        },
+        [&](const CancelOrder& order) { log_cancel(order, service.cancel(order)); });
     if (!opened.ok()) return fail(opened.error());
     port = std::move(opened).value();
     service.start();
+    const auto tell = [&](bool stopping) {
+        port->write_state(
+            describe_state(service.counters(), setup.config.server, setup.grippers, stopping));
+    };
+    Beat beat(kStatusPeriod, [&] { tell(false); });
     log_ready(setup);
 
     int signal = 0;
     sigwait(&signals, &signal);
     spdlog::info("event=stopping signal={}", signal);
     port->stop_listening();
+    beat.stop();
+    tell(true);
     const bool ended = service.stop(kStopGrace);
     const bool confirmed = port->wait_acknowledged(kAcknowledgeWait);
     if (!confirmed) spdlog::warn("event=unconfirmed what=\"some replies were not acknowledged\"");

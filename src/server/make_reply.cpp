@@ -37,6 +37,10 @@ PlanReply overloaded(const IncomingRequest& to) {
 }
 
 PlanReply cancelled(const IncomingRequest& to) {
+    return make_reply(to, PlanStatus::kCancelled, "cancelled by its client");
+}
+
+PlanReply stopped(const IncomingRequest& to) {
     return make_reply(to, PlanStatus::kCancelled, "graspd is stopping");
 }
 

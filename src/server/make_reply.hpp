@@ -11,8 +11,10 @@ namespace graspd::server {
 
 /// The queue is full.
 PlanReply overloaded(const IncomingRequest& to);
-/// The daemon is stopping.
+/// Its client has cancelled it.
 PlanReply cancelled(const IncomingRequest& to);
+/// The daemon is stopping.
+PlanReply stopped(const IncomingRequest& to);
 /// The writer has used this request_id for another request.
 PlanReply id_clash(const IncomingRequest& to);
 /// The object_key names nothing that is kept.

@@ -31,6 +31,11 @@ std::shared_ptr<const ObjectGeometry> ObjectStore::find(const std::string& key) 
     return touch(key) ? newest_first_.front().geometry : nullptr;
 }
 
+std::size_t ObjectStore::size() const {
+    const std::scoped_lock lock(mutex_);
+    return newest_first_.size();
+}
+
 std::uint64_t ObjectStore::bytes() const {
     const std::scoped_lock lock(mutex_);
     return bytes_;

@@ -32,6 +32,9 @@ public:
     /// The object of that key, which becomes the newest; null when it is unknown or was dropped.
     std::shared_ptr<const ObjectGeometry> find(const std::string& key);
 
+    /// How many objects are kept.
+    std::size_t size() const;
+
     /// What the objects take together [bytes].
     std::uint64_t bytes() const;
 

@@ -62,35 +62,70 @@ void PlannerService::receive(const RequestPtr& request) {
         case Admission::kClash: return answer(id_clash(*request));
         case Admission::kPlan: break;
     }
-    open_.insert(request);
+    open_.emplace(request, std::make_shared<std::atomic<bool>>(false));
     RequestPtr item = request;
     if (queue_.try_push(item)) return;
     const bool stopping = stop_.stop_requested();
-    finish_locked(request, stopping ? cancelled(*request) : overloaded(*request), {});
+    finish_locked(request, stopping ? stopped(*request) : overloaded(*request), {});
+}
+
+std::size_t PlannerService::cancel(const CancelOrder& order) {
+    const std::scoped_lock lock(mutex_);
+    std::vector<RequestPtr> named;
+    for (const auto& [request, dropped] : open_) {
+        const RequestIdentity& identity = request->identity();
+        const bool every = order.request_id.empty();
+        if (identity.client_id != order.client_id) continue;
+        if (every || identity.request_id == order.request_id) named.push_back(request);
+    }
+    for (const RequestPtr& request : named) {
+        *open_.at(request) = true;
+        queue_.remove(request);
+        finish_locked(request, cancelled(*request), {});
+    }
+    return named.size();
+}
+
+/// What tells the request's planner to stop; null when the request has been answered meanwhile.
+PlannerService::DropFlag PlannerService::begin(const RequestPtr& request) {
+    const std::scoped_lock lock(mutex_);
+    const auto at = open_.find(request);
+    if (at == open_.end()) return nullptr;
+    ++counters_.busy;
+    return at->second;
 }
 
 void PlannerService::work() {
     while (const auto request = queue_.pop()) {
+        const DropFlag dropped = begin(*request);
+        if (dropped == nullptr) continue;
         Work done;
-        PlanReply reply;
-        try {
-            reply = process(**request, done);
-        } catch (const std::exception& error) {
-            reply = internal_error(**request, error.what());
-        } catch (...) {
-            reply = internal_error(**request, "something that is no std::exception");
-        }
-        finish(*request, reply, done);
+        const PlanReply reply = answer(**request, dropped, done);
+        const std::scoped_lock lock(mutex_);
+        --counters_.busy;
+        finish_locked(*request, reply, done);
     }
     const std::scoped_lock lock(mutex_);
     --running_;
     changed_.notify_all();
 }
 
+PlanReply PlannerService::answer(const IncomingRequest& request, const DropFlag& dropped,
+                                 Work& work) {
+    try {
+        return process(request, dropped, work);
+    } catch (const std::exception& error) {
+        return internal_error(request, error.what());
+    } catch (...) {
+        return internal_error(request, "something that is no std::exception");
+    }
+}
+
 /// Converts and plans one request.
-PlanReply PlannerService::process(const IncomingRequest& request, Work& work) {
+PlanReply PlannerService::process(const IncomingRequest& request, const DropFlag& dropped,
+                                  Work& work) {
     work.queue_ms = ms_since(request.received());
-    if (stop_.stop_requested()) return cancelled(request);
+    if (stop_.stop_requested()) return stopped(request);
     const auto start = Clock::now();
     auto converted = request.convert(parts_.grippers);
     work.convert_ms = ms_since(start);
@@ -99,7 +134,7 @@ PlanReply PlannerService::process(const IncomingRequest& request, Work& work) {
     const std::string& key = request.object_key();
     if (!key.empty() && !fill_in_object(key, problem)) return unknown_object(request);
     work.points = point_count(problem.object_O);
-    return plan_request(request, std::move(problem), work);
+    return plan_request(request, std::move(problem), dropped, work);
 }
 
 /// Puts the object of an earlier request into this one.
@@ -110,16 +145,16 @@ bool PlannerService::fill_in_object(const std::string& key, PlanRequest& problem
 }
 
 PlanReply PlannerService::plan_request(const IncomingRequest& request, PlanRequest problem,
-                                       Work& work) {
+                                       const DropFlag& dropped, Work& work) {
     const auto deadline = deadline_of(request, problem.options);
     if (Clock::now() >= deadline) return budget_spent(request, problem.options);
     const auto start = Clock::now();
-    PlanReply reply =
-        parts_.plan(problem, [&] { return stop_.stop_requested() || Clock::now() >= deadline; });
+    PlanReply reply = parts_.plan(
+        problem, [&] { return stop_.stop_requested() || *dropped || Clock::now() >= deadline; });
     work.plan_ms = ms_since(start);
     if (!reply.object_key.empty()) objects_.put(reply.object_key, std::move(problem.object_O));
     const bool empty = reply.status == PlanStatus::kPartial && reply.grasps.empty();
-    return empty && stop_.stop_requested() ? cancelled(request) : reply;
+    return empty && stop_.stop_requested() ? stopped(request) : reply;
 }
 
 void PlannerService::finish(const RequestPtr& request, const PlanReply& reply, const Work& work) {
@@ -156,9 +191,10 @@ void PlannerService::write_replies() {
     while (auto answer = outbox_.pop()) {
         answer->written = write(answer->out);
         answer->total_ms = ms_since(answer->out.to->received());
-        if (!answer->written) {
+        {
             const std::scoped_lock lock(mutex_);
-            ++counters_.lost;
+            if (!answer->written) ++counters_.lost;
+            if (answer->work.plan_ms > 0.0) latencies_.add(answer->total_ms);
         }
         if (parts_.log) parts_.log(*answer);
     }
@@ -171,13 +207,13 @@ bool PlannerService::stop(std::chrono::milliseconds grace) {
     const auto start = Clock::now();
     stop_.request_stop();
     for (const RequestPtr& waiting : queue_.close_and_take()) {
-        finish(waiting, cancelled(*waiting), {});
+        finish(waiting, stopped(*waiting), {});
     }
     std::unique_lock lock(mutex_);
     changed_.wait_until(lock, start + grace, [&] { return open_.empty() && running_ == 0; });
     while (!open_.empty()) {
-        const RequestPtr late = *open_.begin();
-        finish_locked(late, cancelled(*late), {});
+        const RequestPtr late = open_.begin()->first;
+        finish_locked(late, stopped(*late), {});
     }
     outbox_.close();
     changed_.wait_until(lock, start + 2 * grace, [&] { return !writing_; });
@@ -190,6 +226,9 @@ ServiceCounters PlannerService::counters() const {
     ServiceCounters now = counters_;
     now.queued = queue_.size();
     now.open = open_.size();
+    now.cached_objects = objects_.size();
+    now.latency_p50_ms = latencies_.quantile_ms(0.5);
+    now.latency_p95_ms = latencies_.quantile_ms(0.95);
     return now;
 }
 

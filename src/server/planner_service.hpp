@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -8,12 +9,13 @@
 #include <mutex>
 #include <stop_token>
 #include <thread>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
 #include "bounded_queue.hpp"
 #include "graspd/dds/planner_port.hpp"
 #include "graspd/planner/planner.hpp"
+#include "latency_window.hpp"
 #include "object_store.hpp"
 #include "reply_cache.hpp"
 #include "server_config.hpp"
@@ -52,6 +54,10 @@ struct ServiceCounters {
     std::uint64_t lost = 0;                  ///< answers that could not be written
     std::size_t queued = 0;                  ///< waiting for a worker
     std::size_t open = 0;                    ///< waiting or being planned
+    std::size_t busy = 0;                    ///< workers that plan or convert
+    std::size_t cached_objects = 0;          ///< kept under their object_key
+    double latency_p50_ms = 0.0;             ///< [ms] receipt to reply, of the last 256 plans
+    double latency_p95_ms = 0.0;             ///< [ms]
 };
 
 /// Takes requests and answers each of them exactly once, whatever happens.
@@ -60,7 +66,8 @@ struct ServiceCounters {
 ///
 /// A request that finds the queue full is answered OVERLOADED at once; a retry gets the reply that
 /// its first sending got; an exception becomes INTERNAL_ERROR. A request's time budget counts from
-/// receipt. Replies do not depend on the number of workers.
+/// receipt. A cancelled request is answered CANCELLED at once, and its planner told to stop.
+/// Replies do not depend on the number of workers.
 class PlannerService {
 public:
     PlannerService(const ServerConfig& config, ServiceParts parts);
@@ -75,6 +82,10 @@ public:
     /// Takes over a request; returns at once, never throws. Any thread.
     void handle(std::unique_ptr<IncomingRequest> request) noexcept;
 
+    /// Answers CANCELLED to every open request that the order names. Any thread.
+    /// @return how many there were
+    std::size_t cancel(const CancelOrder& order);
+
     /// Takes no more requests: those that wait are answered CANCELLED, those being planned are
     /// told to stop and answered. One that is not ready after `grace` is answered CANCELLED without
     /// its planner; replies that are not written after twice `grace` are lost.
@@ -86,10 +97,16 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    /// Told to the planner of one request alone.
+    using DropFlag = std::shared_ptr<std::atomic<bool>>;
+
     void work();
     void write_replies();
-    PlanReply process(const IncomingRequest& request, Work& work);
-    PlanReply plan_request(const IncomingRequest& request, PlanRequest problem, Work& work);
+    DropFlag begin(const RequestPtr& request);
+    PlanReply answer(const IncomingRequest& request, const DropFlag& dropped, Work& work);
+    PlanReply process(const IncomingRequest& request, const DropFlag& dropped, Work& work);
+    PlanReply plan_request(const IncomingRequest& request, PlanRequest problem,
+                           const DropFlag& dropped, Work& work);
     bool fill_in_object(const std::string& key, PlanRequest& problem);
     bool write(const OutgoingReply& reply) const noexcept;
     void receive(const RequestPtr& request);
@@ -107,7 +124,8 @@ private:
     mutable std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
     ReplyCache cache_;
-    std::unordered_set<RequestPtr> open_;  ///< taken in for planning and not answered yet
+    std::unordered_map<RequestPtr, DropFlag> open_;  ///< taken in for planning, not answered yet
+    LatencyWindow latencies_;
     ServiceCounters counters_;
     std::size_t running_ = 0;  ///< threads that have not ended
     bool writing_ = false;     ///< the writer thread has not ended

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "graspd/planner/planner_config.hpp"
 
@@ -27,15 +30,31 @@ struct ServerConfig {
     }
 };
 
+/// How the daemon shows itself to ROS 2; group `ros` of planner.yaml.
+struct RosConfig {
+    static constexpr std::array<std::string_view, 4> kGidBytes = {"auto", "off", "16", "24"};
+
+    /// Bytes of a Gid on ros_discovery_info: 24 up to Humble, 16 from Iron on; auto: as the first
+    /// node that is heard of; off: graspd is no node.
+    std::string gid_bytes = "auto";
+
+    template <class Self, class Visitor>
+    static void describe(Self& self, Visitor&& visit) {
+        visit("gid_bytes", self.gid_bytes, Choices(kGidBytes));
+    }
+};
+
 /// Everything that planner.yaml can set for the daemon.
 struct DaemonConfig {
     PlannerConfig planner;
     ServerConfig server;
+    RosConfig ros;
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         PlannerConfig::describe(self.planner, visit);
         visit("server", self.server);
+        visit("ros", self.ros);
     }
 };
 

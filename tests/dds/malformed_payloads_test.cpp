@@ -113,9 +113,9 @@ TEST(MalformedPayloads, ClientSurvivesMalformedReplies) {
     auto joined = dds::Participant::join(loopback_settings());
     ASSERT_TRUE(joined.ok());
     auto* forger = joined.value()->create_writer(
-        {dds::kReplyTopic,
-         dds::fast::TypeSupport(new test::RawType("graspd_msgs::msg::dds_::RankedGrasps_"))},
-        dds::kReplyWriter, nullptr);
+        {"rt/graspd/ranked_grasps", test::raw_type("graspd_msgs::msg::dds_::RankedGrasps_"),
+         dds::kReplyEnds},
+        nullptr);
     ASSERT_NE(forger, nullptr);
     for (Bytes payload : {Bytes{0, 9, 0, 0, 1, 2, 3, 4}, Bytes{0, 1, 0, 0, 255, 255, 255, 255},
                           Bytes{0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255, 255, 255, 255}}) {

@@ -2,84 +2,75 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
 
-#include <fastcdr/Cdr.h>
 #include <graspd_msgs/graspdPubSubTypes.h>
 
+#include "cdr_bytes.hpp"
 #include "participant.hpp"
 #include "support/dds_domain.hpp"
 #include "wire_types.hpp"
 
 namespace graspd::test {
 
-using Bytes = std::vector<std::uint8_t>;
+using dds::Bytes;
 using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 
 /// The payload of a sample: encapsulation CDR_LE, then the members.
 template <class Struct>
 Bytes payload_of(const Struct& sample) {
-    Bytes bytes(Struct::getCdrSerializedSize(sample) + 4);
-    eprosima::fastcdr::FastBuffer buffer(reinterpret_cast<char*>(bytes.data()), bytes.size());
-    eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::LITTLE_ENDIANNESS,
-                               eprosima::fastcdr::Cdr::DDS_CDR);
-    cdr.serialize_encapsulation();
-    sample.serialize(cdr);
-    bytes.resize(cdr.getSerializedDataLength());
-    return bytes;
+    return dds::cdr_bytes(sample);
 }
 
-/// Sends any bytes under a type's name.
-class RawType final : public dds::fast::TopicDataType {
-public:
-    using Payload = eprosima::fastrtps::rtps::SerializedPayload_t;
+/// Any bytes under a type's name.
+inline dds::fast::TypeSupport raw_type(const char* name) {
+    return dds::fast::TypeSupport(new dds::RawType(name, std::make_shared<dds::PayloadGuard>()));
+}
 
-    explicit RawType(const char* name) {
-        setName(name);
-        m_typeSize = 4;
-        m_isGetKeyDefined = false;
-        auto_fill_type_object(false);
-        auto_fill_type_information(false);
-    }
-    bool serialize(void* data, Payload* payload) override {
-        const auto& bytes = *static_cast<Bytes*>(data);
-        std::ranges::copy(bytes, payload->data);
-        payload->length = static_cast<std::uint32_t>(bytes.size());
-        return true;
-    }
-    bool deserialize(Payload* payload, void* data) override {
-        static_cast<Bytes*>(data)->assign(payload->data, payload->data + payload->length);
-        return true;
-    }
-    std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
-        return [data] { return static_cast<std::uint32_t>(static_cast<Bytes*>(data)->size()); };
-    }
-    void* createData() override { return new Bytes(); }
-    void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-    bool getKey(void*, eprosima::fastrtps::rtps::InstanceHandle_t*, bool) override { return false; }
+/// The two topics of a RawClient.
+struct RawTopics {
+    std::string request = "rt/graspd/grasp_request";
+    std::string request_type = "graspd_msgs::msg::dds_::GraspRequest_";
+    dds::Contract request_ends = dds::kRequestEnds;
+    std::string reply = "rt/graspd/ranked_grasps";
+    std::string reply_type = "graspd_msgs::msg::dds_::RankedGrasps_";
+    dds::Contract reply_ends = dds::kReplyEnds;
 };
 
-/// A participant that writes raw payloads under the request's type and reads raw replies.
+/// The two topics of the service, with the volatile reader of a ROS 2 client.
+inline RawTopics service_topics() {
+    RawTopics topics{"rq/graspd/plan_graspsRequest",
+                     "graspd_msgs::srv::dds_::PlanGrasps_Request_",
+                     dds::kServiceRequestEnds,
+                     "rr/graspd/plan_graspsReply",
+                     "graspd_msgs::srv::dds_::PlanGrasps_Response_",
+                     dds::kServiceReplyEnds};
+    topics.reply_ends.transient_local = false;
+    return topics;
+}
+
+/// A participant that writes raw payloads on one topic and collects those of another.
 class RawClient final : public dds::fast::DataReaderListener, public dds::fast::DataWriterListener {
 public:
-    RawClient() {
-        auto joined = dds::Participant::join(loopback_settings());
+    struct Sample {
+        Bytes payload;
+        eprosima::fastrtps::rtps::SampleIdentity related;  ///< what it answers, by its writer
+    };
+
+    explicit RawClient(const RawTopics& topics = {},
+                       const DdsSettings& settings = loopback_settings()) {
+        auto joined = dds::Participant::join(settings);
         EXPECT_TRUE(joined.ok()) << joined.error().detail;
         participant_ = std::move(joined).value();
-        const char* reply = "graspd_msgs::msg::dds_::RankedGrasps_";
-        const char* request = "graspd_msgs::msg::dds_::GraspRequest_";
-        participant_->create_reader({dds::kReplyTopic, dds::fast::TypeSupport(new RawType(reply))},
-                                    dds::kReplyReader, this);
+        reader_ = participant_->create_reader(
+            {topics.reply, raw_type(topics.reply_type.c_str()), topics.reply_ends}, this);
         writer_ = participant_->create_writer(
-            {dds::kRequestTopic, dds::fast::TypeSupport(new RawType(request))}, dds::kRequestWriter,
-            this);
+            {topics.request, raw_type(topics.request_type.c_str()), topics.request_ends}, this);
     }
     ~RawClient() override { participant_.reset(); }
 
@@ -97,11 +88,28 @@ public:
         }
         return code == ReturnCode::RETCODE_OK;
     }
-    /// Waits until so many replies have come, and returns all.
-    std::vector<Bytes> wait_for(std::size_t count) {
+    /// As rmw_fastrtps calls a service: naming its own reply reader.
+    /// @return the number of the request, which the reply will name; 0: not written
+    std::uint64_t call(Bytes payload) {
+        eprosima::fastrtps::rtps::WriteParams parameters;
+        parameters.related_sample_identity().writer_guid(reader_->guid());
+        if (!writer_->write(&payload, parameters)) return 0;
+        return parameters.sample_identity().sequence_number().to64long();
+    }
+    dds::fast::DataReader& reader() { return *reader_; }
+    dds::fast::DataWriter& writer() { return *writer_; }
+
+    /// Waits until so many samples have come, and returns all.
+    std::vector<Sample> wait_for_samples(std::size_t count) {
         std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, std::chrono::seconds(10), [&] { return replies_.size() >= count; });
-        return replies_;
+        changed_.wait_for(lock, std::chrono::seconds(10), [&] { return samples_.size() >= count; });
+        return samples_;
+    }
+    std::vector<Bytes> wait_for(std::size_t count) {
+        std::vector<Bytes> payloads;
+        for (Sample& sample : wait_for_samples(count))
+            payloads.push_back(std::move(sample.payload));
+        return payloads;
     }
 
     void on_data_available(dds::fast::DataReader* reader) override {
@@ -109,7 +117,7 @@ public:
         dds::fast::SampleInfo info;
         while (reader->take_next_sample(&bytes, &info) == ReturnCode::RETCODE_OK) {
             const std::lock_guard lock(mutex_);
-            if (info.valid_data) replies_.push_back(bytes);
+            if (info.valid_data) samples_.push_back({bytes, info.related_sample_identity});
             changed_.notify_all();
         }
     }
@@ -131,8 +139,9 @@ private:
     std::condition_variable changed_;
     int readers_ = 0;
     int writers_ = 0;
-    std::vector<Bytes> replies_;
+    std::vector<Sample> samples_;
     std::unique_ptr<dds::Participant> participant_;
+    dds::fast::DataReader* reader_ = nullptr;
     dds::fast::DataWriter* writer_ = nullptr;
 };
 

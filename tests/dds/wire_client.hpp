@@ -28,11 +28,13 @@ public:
         EXPECT_TRUE(joined.ok()) << joined.error().detail;
         participant_ = std::move(joined).value();
         participant_->create_reader(
-            {dds::kReplyTopic, dds::fast::TypeSupport(new dds::wire::RankedGrasps_PubSubType)},
-            dds::kReplyReader, this);
+            {"rt/graspd/ranked_grasps",
+             dds::fast::TypeSupport(new dds::wire::RankedGrasps_PubSubType), dds::kReplyEnds},
+            this);
         writer_ = participant_->create_writer(
-            {dds::kRequestTopic, dds::fast::TypeSupport(new dds::wire::GraspRequest_PubSubType)},
-            dds::kRequestWriter, this);
+            {"rt/graspd/grasp_request",
+             dds::fast::TypeSupport(new dds::wire::GraspRequest_PubSubType), dds::kRequestEnds},
+            this);
     }
     ~WireClient() override { participant_.reset(); }
 

@@ -68,9 +68,9 @@ TEST(ConvertReply, EveryStatusHasItsNumber) {
         EXPECT_EQ(on_wire.status(), number);
         EXPECT_EQ(read_reply(on_wire).value().status, plan);
     }
-    EXPECT_EQ(kBoundary, wire::GraspSource__Constants::BOUNDARY_);
-    EXPECT_EQ(kWall, wire::GraspSource__Constants::WALL_);
-    EXPECT_EQ(kWholeObject, wire::GraspSource__Constants::WHOLE_OBJECT_);
+    EXPECT_EQ(kBoundary, wire::PlanOptions__Constants::SOURCE_BOUNDARY_);
+    EXPECT_EQ(kWall, wire::PlanOptions__Constants::SOURCE_WALL_);
+    EXPECT_EQ(kWholeObject, wire::PlanOptions__Constants::SOURCE_WHOLE_OBJECT_);
 }
 
 TEST(ConvertReply, QuaternionsHaveAPositiveRealPart) {

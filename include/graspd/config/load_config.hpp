@@ -78,6 +78,8 @@ std::vector<SettingRef> collect(T& settings) {
 std::optional<PlanError> assign_yaml_file(const std::filesystem::path& file,
                                           const std::vector<SettingRef>& settings,
                                           const std::vector<std::string>& foreign_groups);
+std::optional<PlanError> assign_parameter(const std::string& name, const std::string& value,
+                                          const std::vector<SettingRef>& settings);
 std::string print_yaml(const std::vector<SettingRef>& settings);
 
 }  // namespace config_detail
@@ -101,6 +103,18 @@ Result<T> load_config(const std::filesystem::path& file, T defaults = {},
         return PlanError{error->code, file.string() + ": " + error->detail};
     }
     return defaults;
+}
+
+/// Sets one parameter, as ROS 2's `-p server.workers:=4` does. Its range is not checked: validate()
+/// does that for all of them.
+///
+/// @param name   groups and parameter, joined by dots
+/// @param value  YAML text of one scalar
+/// @return kInvalidInput for a name that is unknown or a value of the wrong type, naming both
+template <Settings T>
+std::optional<PlanError> set_parameter(T& settings, const std::string& name,
+                                       const std::string& value) {
+    return config_detail::assign_parameter(name, value, config_detail::collect(settings));
 }
 
 /// The effective settings as YAML, one key a line in the order of describe(); reading it back gives

@@ -10,6 +10,7 @@
 
 #include "graspd/base/result.hpp"
 #include "graspd/dds/dds_settings.hpp"
+#include "graspd/dds/planner_state.hpp"
 #include "graspd/planner/plan_types.hpp"
 
 namespace graspd {
@@ -47,6 +48,15 @@ public:
 /// at once and not throw.
 using RequestHandler = std::function<void(std::unique_ptr<IncomingRequest>)>;
 
+/// Requests that their client has no use for any more.
+struct CancelOrder {
+    std::string client_id;   ///< as in RequestIdentity; empty: clients without an id
+    std::string request_id;  ///< empty: every request of that client
+};
+
+/// Told of every CancelRequest; as RequestHandler.
+using CancelHandler = std::function<void(const CancelOrder&)>;
+
 /// What goes back. The ids, frame_id and stamp are echoed from `to`, not from `reply`.
 struct OutgoingReply {
     std::shared_ptr<const IncomingRequest> to;
@@ -54,7 +64,8 @@ struct OutgoingReply {
     PlanReply reply;
 };
 
-/// The daemon's end of the topics graspd/grasp_request and graspd/ranked_grasps.
+/// The daemon's end of the wire: the topics and the service of docs/interface.md, and its place in
+/// the ROS 2 graph.
 ///
 /// Malformed samples are refused and counted before they become a request.
 class PlannerPort {
@@ -63,14 +74,20 @@ public:
     /// @return kUnreadableFile for a profile file that is missing, broken or lacks a profile;
     ///         kInvalidInput for a bad setting; kInternal when the middleware refuses an endpoint
     static Result<std::unique_ptr<PlannerPort>> open(const DdsSettings& settings,
-                                                     RequestHandler handler);
+                                                     RequestHandler handler,
+                                                     CancelHandler cancel = {});
     /// Leaves the domain: stops listening, then removes every endpoint.
     virtual ~PlannerPort() = default;
 
-    /// Writes one reply; waits for a slow reader for the profile's max_blocking_time at most.
-    /// To be called from one thread. @return false: the reply is lost (and counted)
+    /// Writes one reply, to the topic or to the caller of the service; waits for a slow reader for
+    /// the profile's max_blocking_time at most. A caller whose reply reader is not known yet is
+    /// waited for, 100 ms at most. To be called from one thread. @return false: the reply is lost
+    /// (and counted)
     virtual bool write(const OutgoingReply& reply) = 0;
-    /// No call of the handler is under way or follows once this has returned. Not for the handler.
+    /// Writes what the planner says of itself to the topics status and diagnostics, and asserts
+    /// that it is alive. To be called from one thread. @return false: not written
+    virtual bool write_state(PlannerState state) = 0;
+    /// No call of a handler is under way or follows once this has returned. Not for the handler.
     virtual void stop_listening() = 0;
     /// Waits until every matched reader has confirmed every reply. @return false: not in that time
     virtual bool wait_acknowledged(std::chrono::milliseconds timeout) = 0;

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+
+namespace graspd::dds {
+
+namespace fast = eprosima::fastdds::dds;
+
+/// What both ends of a topic promise each other. A profile of the topic's name in the profile file
+/// may say how (buffers, heartbeats), never something else; without one the built-in QoS holds.
+/// All endpoints are reliable.
+struct Contract {
+    const char* profile;           ///< its name: that of the topic before any remapping
+    bool transient_local = false;  ///< a reader that comes late gets what was written before
+    std::int32_t depth = 0;        ///< samples kept; 0: all, as far as `limit` goes
+    std::int32_t limit = 64;       ///< samples that a history of unlimited depth holds
+    std::int32_t lifespan_s = 0;   ///< [s] after which a sample is dropped; 0: never
+    std::int32_t lease_s = 0;      ///< [s] of MANUAL_BY_TOPIC liveliness; 0: none
+    bool required = false;         ///< the profile file must have it
+};
+
+inline constexpr Contract kRequestEnds{
+    .profile = "/graspd/grasp_request", .limit = 32, .required = true};
+inline constexpr Contract kReplyEnds{.profile = "/graspd/ranked_grasps",
+                                     .transient_local = true,
+                                     .limit = 256,
+                                     .lifespan_s = 60,
+                                     .required = true};
+inline constexpr Contract kCancelEnds{.profile = "/graspd/cancel"};
+inline constexpr Contract kStatusEnds{
+    .profile = "/graspd/status", .transient_local = true, .depth = 1, .lease_s = 3};
+inline constexpr Contract kDiagnosticsEnds{.profile = "/diagnostics", .depth = 10};
+inline constexpr Contract kServiceRequestEnds{.profile = "/graspd/plan_graspsRequest", .limit = 32};
+inline constexpr Contract kServiceReplyEnds{
+    .profile = "/graspd/plan_graspsReply", .transient_local = true, .limit = 256, .lifespan_s = 60};
+inline constexpr Contract kGraphEnds{
+    .profile = "ros_discovery_info", .transient_local = true, .depth = 1};
+
+/// The contract as built in.
+fast::DataReaderQos reader_qos(const Contract& contract);
+fast::DataWriterQos writer_qos(const Contract& contract);
+
+/// What a profile says against the contract, such as "must be RELIABLE"; empty: nothing.
+std::string broken_contract(const fast::DataReaderQos& qos, const Contract& contract);
+std::string broken_contract(const fast::DataWriterQos& qos, const Contract& contract);
+
+}  // namespace graspd::dds

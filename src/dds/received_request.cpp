@@ -1,0 +1,55 @@
+#include "received_request.hpp"
+
+#include <string_view>
+
+#include "graspd/base/fnv1a.hpp"
+#include "guid_bytes.hpp"
+
+namespace graspd::dds {
+namespace {
+
+using eprosima::fastrtps::rtps::GUID_t;
+
+}  // namespace
+
+void ReceivedRequest::complete(const eprosima::fastdds::dds::SampleInfo& info) {
+    received_ = std::chrono::steady_clock::now();
+    identity_.writer = bytes_of(info.sample_identity.writer_guid());
+    identity_.client_id = printable(sample.client_id());
+    identity_.request_id = printable(sample.request_id());
+    identity_.payload_hash = sample.payload_hash;
+}
+
+std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
+                                                   const eprosima::fastdds::dds::SampleInfo& info) {
+    static const CdrStruct* const layout =
+        wire_layouts().find("graspd_msgs::srv::dds_::PlanGrasps_Request_");
+    auto request = std::make_unique<ReceivedRequest>();
+    std::span<std::uint8_t> members = payload;
+    ServiceCall& call = request->call.emplace();
+    std::int64_t number = 0;
+    if (info.related_sample_identity.writer_guid() != GUID_t::unknown()) {
+        call.related.emplace();
+        call.related->writer_guid(info.related_sample_identity.writer_guid());
+        call.related->sequence_number(info.sample_identity.sequence_number());
+        number = static_cast<std::int64_t>(info.sample_identity.sequence_number().to64long());
+    } else {
+        const auto header = take_service_header(members);
+        if (!header) return nullptr;
+        call.header = *header;
+        number = header->sequence;
+    }
+    // The request's message has one member, so its bytes are those of a GraspRequest_.
+    if (layout == nullptr || !read_cdr<wire::GraspRequest_>(members, *layout, request->sample)) {
+        return nullptr;
+    }
+    request->sample.payload_hash =
+        fnv1a(std::string_view(reinterpret_cast<const char*>(members.data()), members.size()));
+    if (request->sample.request_id().empty()) {
+        request->sample.request_id("call-" + std::to_string(number));
+    }
+    request->complete(info);
+    return request;
+}
+
+}  // namespace graspd::dds
