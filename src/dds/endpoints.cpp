@@ -8,6 +8,9 @@ constexpr std::uint32_t kHeartbeat_ns = 100 * kMillisecond_ns;  // 5 MB samples 
 constexpr std::uint32_t kHeartbeatResponse_ns = kMillisecond_ns;
 constexpr std::uint32_t kLongestBlocking_ns = 200 * kMillisecond_ns;  // a slow reader's cost
 
+/// Fast DDS sends no heartbeat on demand without a lease; nothing hangs on its length.
+constexpr std::int32_t kGreetingLease_s = 86400;
+
 /// What readers and writers have in common.
 template <class Qos>
 void apply(const Contract& contract, Qos& qos) {
@@ -62,6 +65,13 @@ fast::DataWriterQos writer_qos(const Contract& contract) {
         qos.liveliness().announcement_period = {contract.lease_s / 2, 0};
     }
     return qos;
+}
+
+void set_greeting(const Contract& contract, fast::DataWriterQos& qos) {
+    if (!contract.greets) return;
+    qos.liveliness().kind = fast::MANUAL_BY_TOPIC_LIVELINESS_QOS;
+    qos.liveliness().lease_duration = {kGreetingLease_s, 0};
+    qos.liveliness().announcement_period = {kGreetingLease_s / 2, 0};
 }
 
 std::string broken_contract(const fast::DataReaderQos& qos, const Contract& contract) {

@@ -21,6 +21,7 @@ struct Contract {
     std::int32_t limit = 64;       ///< samples that a history of unlimited depth holds
     std::int32_t lifespan_s = 0;   ///< [s] after which a sample is dropped; 0: never
     std::int32_t lease_s = 0;      ///< [s] of MANUAL_BY_TOPIC liveliness; 0: none
+    bool greets = false;           ///< its writer can say where it stands (reply_writer.hpp)
     bool required = false;         ///< the profile file must have it
 };
 
@@ -30,20 +31,26 @@ inline constexpr Contract kReplyEnds{.profile = "/graspd/ranked_grasps",
                                      .transient_local = true,
                                      .limit = 256,
                                      .lifespan_s = 60,
+                                     .greets = true,
                                      .required = true};
 inline constexpr Contract kCancelEnds{.profile = "/graspd/cancel"};
 inline constexpr Contract kStatusEnds{
     .profile = "/graspd/status", .transient_local = true, .depth = 1, .lease_s = 3};
 inline constexpr Contract kDiagnosticsEnds{.profile = "/diagnostics", .depth = 10};
 inline constexpr Contract kServiceRequestEnds{.profile = "/graspd/plan_graspsRequest", .limit = 32};
-inline constexpr Contract kServiceReplyEnds{
-    .profile = "/graspd/plan_graspsReply", .transient_local = true, .limit = 256, .lifespan_s = 60};
+inline constexpr Contract kServiceReplyEnds{.profile = "/graspd/plan_graspsReply",
+                                            .transient_local = true,
+                                            .limit = 256,
+                                            .lifespan_s = 60,
+                                            .greets = true};
 inline constexpr Contract kGraphEnds{
     .profile = "ros_discovery_info", .transient_local = true, .depth = 1};
 
 /// The contract as built in.
 fast::DataReaderQos reader_qos(const Contract& contract);
 fast::DataWriterQos writer_qos(const Contract& contract);
+/// What no profile changes: a writer that greets does so by asserting its liveliness.
+void set_greeting(const Contract& contract, fast::DataWriterQos& qos);
 
 /// What a profile says against the contract, such as "must be RELIABLE"; empty: nothing.
 std::string broken_contract(const fast::DataReaderQos& qos, const Contract& contract);

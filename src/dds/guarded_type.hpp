@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -38,6 +39,13 @@ public:
         : guard_(std::move(guard)), layout_(wire_layouts().find(Generated::getName())) {
         Generated::auto_fill_type_object(false);
         Generated::auto_fill_type_information(false);
+    }
+
+    /// The generated one leaves alignment bytes as the memory was: the same sample would give other
+    /// bytes, some of them left by whatever stood there before.
+    bool serialize(void* data, Payload* payload) override {
+        std::memset(payload->data, 0, payload->max_size);
+        return Generated::serialize(data, payload);
     }
 
     bool deserialize(Payload* payload, void* data) override {

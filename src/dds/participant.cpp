@@ -194,6 +194,7 @@ fast::DataWriter* Participant::create_writer(const TopicOf& topic,
     if (made == nullptr) return nullptr;
     fast::DataWriterQos qos = writer_qos(topic.contract);
     publisher_->get_datawriter_qos_from_profile(topic.contract.profile, qos);
+    set_greeting(topic.contract, qos);
     set_type_hash(qos, topic.type.get_type_name());
     return publisher_->create_datawriter(made, qos, listener);
 }

@@ -13,8 +13,8 @@
 #include "guarded_type.hpp"
 #include "participant.hpp"
 #include "received_request.hpp"
+#include "reply_writer.hpp"
 #include "ros_graph.hpp"
-#include "service_replies.hpp"
 #include "taking_listener.hpp"
 
 namespace graspd {
@@ -30,6 +30,7 @@ using StatusType = GuardedType<wire::PlannerStatus_PubSubType>;
 using DiagnosticsType = GuardedType<diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>;
 
 constexpr const char* kServiceRequestType = "graspd_msgs::srv::dds_::PlanGrasps_Request_";
+constexpr const char* kServiceReplyType = "graspd_msgs::srv::dds_::PlanGrasps_Response_";
 constexpr std::chrono::milliseconds kCallerPatience{100};
 
 class DdsPlannerPort final : public PlannerPort {
@@ -48,11 +49,16 @@ public:
         if (!joined.ok()) return joined.error();
         participant_ = std::move(joined).value();
         const WireNames& names = settings_.names;
-        reply_writer_ = writer<ReplyType>(names.ranked_grasps, kReplyEnds);
+        auto* reply_writer = reply_writer_.open(
+            *participant_,
+            {names.ranked_grasps, fast::TypeSupport(new ReplyType(guard_)), kReplyEnds});
         status_writer_ = writer<StatusType>(names.status, kStatusEnds);
         diagnostics_writer_ = writer<DiagnosticsType>(names.diagnostics, kDiagnosticsEnds);
-        auto* service_writer = service_replies_.open(*participant_, names.service_reply, guard_);
-        const std::array writers = {reply_writer_, status_writer_, diagnostics_writer_,
+        auto* service_writer = service_writer_.open(
+            *participant_,
+            {names.service_reply, fast::TypeSupport(new RawType(kServiceReplyType, guard_)),
+             kServiceReplyEnds});
+        const std::array writers = {reply_writer, status_writer_, diagnostics_writer_,
                                     service_writer};
         if (std::ranges::count(writers, nullptr) > 0) return refused();
         const std::array readers = {
@@ -73,9 +79,14 @@ public:
         try {
             wire::RankedGrasps_ sample = write_reply(reply.reply, envelope_of(reply));
             const auto* request = dynamic_cast<const ReceivedRequest*>(reply.to.get());
-            const bool called = request != nullptr && request->call.has_value();
-            written = called ? service_replies_.write(*request, sample, kCallerPatience)
-                             : reply_writer_->write(&sample);
+            const auto& caller = reply.to->identity().writer;
+            if (request != nullptr && request->call) {
+                service_writer_.meet(caller, kCallerPatience);
+                written = write_service_reply(*request->call, sample, service_writer_.writer());
+            } else {
+                reply_writer_.meet(caller, {});  // somebody else may read what one asks for
+                written = reply_writer_.writer().write(&sample);
+            }
         } catch (...) {  // out of memory
         }
         if (!written) lost_.fetch_add(1, std::memory_order_relaxed);
@@ -101,7 +112,7 @@ public:
 
     bool wait_acknowledged(std::chrono::milliseconds timeout) override {
         const double seconds = std::chrono::duration<double>(timeout).count();
-        return reply_writer_->wait_for_acknowledgments(eprosima::fastrtps::Duration_t(
+        return reply_writer_.writer().wait_for_acknowledgments(eprosima::fastrtps::Duration_t(
                    static_cast<long double>(seconds))) == ReturnCode_t::RETCODE_OK;
     }
 
@@ -184,10 +195,10 @@ private:
     TakingListener request_listener_{[this](auto& from) { return take_request(from); }};
     TakingListener service_listener_{[this](auto& from) { return take_call(from); }};
     TakingListener cancel_listener_{[this](auto& from) { return take_cancel(from); }};
-    ServiceReplies service_replies_;
+    ReplyWriter reply_writer_;
+    ReplyWriter service_writer_;
     std::optional<RosGraph> graph_;
     std::unique_ptr<Participant> participant_;
-    fast::DataWriter* reply_writer_ = nullptr;
     fast::DataWriter* status_writer_ = nullptr;
     fast::DataWriter* diagnostics_writer_ = nullptr;
 };

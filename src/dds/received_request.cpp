@@ -20,6 +20,19 @@ void ReceivedRequest::complete(const eprosima::fastdds::dds::SampleInfo& info) {
     identity_.payload_hash = sample.payload_hash;
 }
 
+// The reply's message has one member, so its bytes are those of a RankedGrasps_.
+bool write_service_reply(const ServiceCall& call, const wire::RankedGrasps_& reply,
+                         eprosima::fastdds::dds::DataWriter& writer) {
+    if (call.related) {
+        Bytes payload = cdr_bytes(reply);
+        eprosima::fastrtps::rtps::WriteParams parameters;
+        parameters.related_sample_identity(*call.related);
+        return writer.write(&payload, parameters);
+    }
+    Bytes payload = cdr_bytes(reply, call.header);
+    return writer.write(&payload);
+}
+
 std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
                                                    const eprosima::fastdds::dds::SampleInfo& info) {
     static const CdrStruct* const layout =

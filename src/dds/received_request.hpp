@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
 #include "cdr_bytes.hpp"
@@ -46,6 +47,11 @@ private:
     RequestIdentity identity_;
     std::chrono::steady_clock::time_point received_;
 };
+
+/// Writes the reply to a service call in the way that its caller understands.
+/// @return false: not written
+bool write_service_reply(const ServiceCall& call, const wire::RankedGrasps_& reply,
+                         eprosima::fastdds::dds::DataWriter& writer);
 
 /// Reads a service call, whichever ROS 2 vendor it comes from: rmw_fastrtps names a related sample
 /// and writes the members alone, rmw_cyclonedds names none and puts a header before them. A call

@@ -48,7 +48,17 @@ public:
         ASSERT_TRUE(sample.ok()) << sample.error().detail;
         send(sample.value());
     }
-    void send(dds::wire::GraspRequest_ sample) { ASSERT_TRUE(writer_->write(&sample)); }
+    /// A full history gives way to a volatile writer with a timeout that means "try again".
+    void send(dds::wire::GraspRequest_ sample) {
+        using eprosima::fastrtps::types::ReturnCode_t;
+        const auto deadline = std::chrono::steady_clock::now() + kLimit;
+        ReturnCode_t code = ReturnCode_t::RETCODE_TIMEOUT;
+        while (code == ReturnCode_t::RETCODE_TIMEOUT &&
+               std::chrono::steady_clock::now() < deadline) {
+            code = writer_->write(&sample, eprosima::fastrtps::rtps::c_InstanceHandle_Unknown);
+        }
+        ASSERT_EQ(code, ReturnCode_t::RETCODE_OK);
+    }
 
     /// Waits until so many replies have come, and returns all.
     std::vector<Reply> wait_for(std::size_t count) {
