@@ -119,6 +119,20 @@ TEST(CycloneClients, ALateReaderGetsTheReply) {
     EXPECT_THAT(late.output(), HasSubstr("id=early client=first"));
 }
 
+TEST(CycloneClients, TheExamplePrintsGraspsOrReasons) {
+    ::unsetenv("CYCLONEDDS_URI");  // it keeps to loopback by itself
+    const std::string domain = std::to_string(test_domain());
+    const test::TemporaryFile box("box.off", test::off_text(test::box({0.04, 0.06, 0.08})));
+    const test::TemporaryFile wide("wide.off", test::off_text(test::box({0.086, 0.086, 0.086})));
+    const Daemon daemon(test_domain());
+    ChildProcess good(CYCLONE_EXAMPLE_PROGRAM, {box.path(), "parallel_85", "1", domain});
+    EXPECT_EQ(good.wait_exit(), 0) << good.errors();
+    EXPECT_THAT(good.output(), StartsWith("OK, 10 grasps."));
+    ChildProcess none(CYCLONE_EXAMPLE_PROGRAM, {wide.path(), "parallel_85", "1", domain});
+    EXPECT_EQ(none.wait_exit(), 3) << none.errors();
+    EXPECT_THAT(none.output(), HasSubstr("candidates: axis_too_wide"));
+}
+
 TEST(CycloneClients, TwoWithOneRequestIdGetTheirOwnReplies) {
     const Daemon daemon(test_domain());
     CycloneClient box({"topic", "--id", "same", "--client", "a", "--faces", "12"});

@@ -22,8 +22,11 @@ TEST(DaemonConfig, PlannerYamlHoldsEveryDefault) {
     std::ifstream stream(kFile);
     const std::string text(std::istreambuf_iterator<char>(stream), {});
     ServerConfig config;
-    for (const auto& setting : config_detail::collect(config)) {
-        EXPECT_THAT(text, HasSubstr("\n  " + setting.path.back() + ": "));
+    RosConfig ros;
+    for (const auto& settings : {config_detail::collect(config), config_detail::collect(ros)}) {
+        for (const auto& setting : settings) {
+            EXPECT_THAT(text, HasSubstr("\n  " + setting.path.back() + ": "));
+        }
     }
 }
 
