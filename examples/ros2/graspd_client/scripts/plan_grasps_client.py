@@ -110,7 +110,9 @@ def main():
     if reply is None or reply.status == RankedGrasps.STATUS_OVERLOADED:
         sys.exit(4)
     show(reply)
-    sys.exit(0 if reply.grasps else 3)
+    codes = {RankedGrasps.STATUS_NO_GRASP: 3, RankedGrasps.STATUS_PARTIAL: 3,
+             RankedGrasps.STATUS_CANCELLED: 4, RankedGrasps.STATUS_INTERNAL_ERROR: 1}
+    sys.exit(0 if reply.grasps else codes.get(reply.status, 2))  # as graspctl's
 
 
 if __name__ == '__main__':

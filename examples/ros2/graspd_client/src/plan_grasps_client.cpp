@@ -53,7 +53,8 @@ void print(const rclcpp::Logger& logger, const RankedGrasps& reply) {
     for (const auto& grasp : reply.grasps) {
         const auto& p = grasp.pose.position;
         const auto& q = grasp.pose.orientation;
-        RCLCPP_INFO(logger, "score %.3f at (%.4f %.4f %.4f), xyzw (%.3f %.3f %.3f %.3f), gap %.4f m",
+        RCLCPP_INFO(logger,
+                    "score %.3f at (%.4f %.4f %.4f), xyzw (%.3f %.3f %.3f %.3f), gap %.4f m",
                     grasp.score, p.x, p.y, p.z, q.x, q.y, q.z, q.w, grasp.width);
     }
     if (!reply.grasps.empty()) return;
@@ -67,10 +68,24 @@ void print(const rclcpp::Logger& logger, const RankedGrasps& reply) {
     }
 }
 
+/// As graspctl's.
+int exit_code(const RankedGrasps& reply) {
+    if (!reply.grasps.empty()) return 0;
+    switch (reply.status) {
+        case RankedGrasps::STATUS_NO_GRASP:
+        case RankedGrasps::STATUS_PARTIAL: return 3;
+        case RankedGrasps::STATUS_CANCELLED: return 4;
+        case RankedGrasps::STATUS_INTERNAL_ERROR: return 1;
+        default: return 2;
+    }
+}
+
 int run(const rclcpp::Node::SharedPtr& node, const std::string& file, const std::string& gripper) {
     auto client = node->create_client<PlanGrasps>("/graspd/plan_grasps");
     auto request = std::make_shared<PlanGrasps::Request>();
     request->request.header.frame_id = "object";
+    request->request.client_id = node->get_name();
+    request->request.request_id = "1";  // the same in every attempt: a retry
     request->request.gripper = gripper;
     request->request.mesh = read_off(file);
     if (!client->wait_for_service(10s)) throw std::runtime_error("no planner within 10 s");
@@ -78,7 +93,7 @@ int run(const rclcpp::Node::SharedPtr& node, const std::string& file, const std:
         const auto response = call(node, *client, request);
         if (response && response->reply.status != RankedGrasps::STATUS_OVERLOADED) {
             print(node->get_logger(), response->reply);
-            return response->reply.grasps.empty() ? 3 : 0;
+            return exit_code(response->reply);
         }
         RCLCPP_WARN(node->get_logger(), response ? "the planner is busy" : "no reply in time");
         rclcpp::sleep_for(500ms * (attempt + 1));
@@ -93,7 +108,8 @@ int main(int argc, char** argv) {
     auto node = std::make_shared<rclcpp::Node>("plan_grasps_client");
     int code = 2;
     try {
-        if (arguments.size() != 3) throw std::runtime_error("usage: plan_grasps_client FILE GRIPPER");
+        if (arguments.size() != 3)
+            throw std::runtime_error("usage: plan_grasps_client FILE GRIPPER");
         code = run(node, arguments[1], arguments[2]);
     } catch (const std::exception& error) {
         RCLCPP_ERROR(node->get_logger(), "%s", error.what());
