@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "graspd/base/freed_memory.hpp"
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/dds/planner_client.hpp"
 #include "graspd/dds/planner_port.hpp"
@@ -88,6 +89,7 @@ void round_trips(benchmark::State& state, Echo& echo, PlannerClient& client) {
 
 int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
+    keep_freed_memory(kFreedMemory_bytes);  // as the daemon
     try {
         DdsSettings settings;
         settings.domain = kDomain;
