@@ -6,12 +6,6 @@ namespace graspd {
 
 Result<WireNames> wire_names(const RosArguments& ros) {
     WireNames names;
-    const auto topic = [&](const char* name, std::string& to) -> std::optional<PlanError> {
-        auto resolved = resolve_name(ros, name, RosNameKind::kTopic);
-        if (!resolved.ok()) return resolved.error();
-        to = dds_topic_name(resolved.value(), DdsTopicKind::kTopic);
-        return std::nullopt;
-    };
     const std::pair<const char*, std::string*> topics[] = {
         {"graspd/grasp_request", &names.grasp_request},
         {"graspd/ranked_grasps", &names.ranked_grasps},
@@ -19,9 +13,11 @@ Result<WireNames> wire_names(const RosArguments& ros) {
         {"graspd/status", &names.status},
         {"/diagnostics", &names.diagnostics}};
     for (const auto& [name, to] : topics) {
-        if (auto error = topic(name, *to)) return *std::move(error);
+        const auto resolved = resolve_name(ros, name, RosNameKind::kTopic);
+        if (!resolved.ok()) return resolved.error();
+        *to = dds_topic_name(resolved.value(), DdsTopicKind::kTopic);
     }
-    auto service = resolve_name(ros, "graspd/plan_grasps", RosNameKind::kService);
+    const auto service = resolve_name(ros, "graspd/plan_grasps", RosNameKind::kService);
     if (!service.ok()) return service.error();
     names.service_request = dds_topic_name(service.value(), DdsTopicKind::kServiceRequest);
     names.service_reply = dds_topic_name(service.value(), DdsTopicKind::kServiceReply);

@@ -31,6 +31,12 @@ void apply(const Contract& contract, Qos& qos) {
     qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
 }
 
+void set_lease(std::int32_t lease_s, fast::DataWriterQos& qos) {
+    qos.liveliness().kind = fast::MANUAL_BY_TOPIC_LIVELINESS_QOS;
+    qos.liveliness().lease_duration = {lease_s, 0};
+    qos.liveliness().announcement_period = {lease_s / 2, 0};
+}
+
 template <class Qos>
 std::string broken(const Qos& qos, const Contract& contract) {
     if (qos.reliability().kind != fast::RELIABLE_RELIABILITY_QOS) return "must be RELIABLE";
@@ -59,19 +65,12 @@ fast::DataWriterQos writer_qos(const Contract& contract) {
     qos.reliable_writer_qos().times.heartbeatPeriod = {0, kHeartbeat_ns};
     qos.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;
     if (contract.lifespan_s > 0) qos.lifespan().duration = {contract.lifespan_s, 0};
-    if (contract.lease_s > 0) {
-        qos.liveliness().kind = fast::MANUAL_BY_TOPIC_LIVELINESS_QOS;
-        qos.liveliness().lease_duration = {contract.lease_s, 0};
-        qos.liveliness().announcement_period = {contract.lease_s / 2, 0};
-    }
+    if (contract.lease_s > 0) set_lease(contract.lease_s, qos);
     return qos;
 }
 
 void set_greeting(const Contract& contract, fast::DataWriterQos& qos) {
-    if (!contract.greets) return;
-    qos.liveliness().kind = fast::MANUAL_BY_TOPIC_LIVELINESS_QOS;
-    qos.liveliness().lease_duration = {kGreetingLease_s, 0};
-    qos.liveliness().announcement_period = {kGreetingLease_s / 2, 0};
+    if (contract.greets) set_lease(kGreetingLease_s, qos);
 }
 
 std::string broken_contract(const fast::DataReaderQos& qos, const Contract& contract) {

@@ -111,9 +111,16 @@ public:
     }
 
     bool wait_acknowledged(std::chrono::milliseconds timeout) override {
-        const double seconds = std::chrono::duration<double>(timeout).count();
-        return reply_writer_.writer().wait_for_acknowledgments(eprosima::fastrtps::Duration_t(
-                   static_cast<long double>(seconds))) == ReturnCode_t::RETCODE_OK;
+        const auto deadline = std::chrono::steady_clock::now() + timeout;
+        bool confirmed = true;
+        for (ReplyWriter* writer : {&reply_writer_, &service_writer_}) {
+            const std::chrono::duration<long double> rest =
+                deadline - std::chrono::steady_clock::now();
+            const eprosima::fastrtps::Duration_t left(std::max(rest.count(), 0.0L));
+            const auto code = writer->writer().wait_for_acknowledgments(left);
+            confirmed = confirmed && code == ReturnCode_t::RETCODE_OK;
+        }
+        return confirmed;
     }
 
     std::uint64_t rejected_payloads() const override { return guard_->rejected; }

@@ -58,7 +58,7 @@ bool RosGraph::open(Participant& participant, const std::shared_ptr<PayloadGuard
     TopicOf topic{kTopic, fast::TypeSupport(new RawType(kType, guard)), kGraphEnds};
     writer_ = participant.create_writer(topic, nullptr);
     if (writer_ == nullptr) return false;
-    if (node_.gid_bytes != GidBytes::kAuto) announce(node_.gid_bytes);
+    announce(node_.gid_bytes);
     topic.contract.depth = 0;  // of all participants together
     return participant.create_reader(topic, this) != nullptr;
 }

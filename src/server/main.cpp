@@ -43,6 +43,7 @@ constexpr std::chrono::milliseconds kStatusPeriod{1000};
 struct Setup {
     DaemonConfig config;
     DdsSettings dds;
+    std::string network_why;  ///< what chose the profile file
     std::vector<Gripper> grippers;
 };
 
@@ -73,7 +74,7 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     dds.version = version();
     dds.config_hash = config_hash(config.planner);
     dds.max_payload_bytes = config.server.max_payload_bytes;
-    return Setup{config, std::move(dds), std::move(grippers).value()};
+    return Setup{config, std::move(dds), network.value().why, std::move(grippers).value()};
 }
 
 void open_log(const std::string& level) {
@@ -91,11 +92,12 @@ void log_ready(const Setup& setup) {
     }
     const DdsSettings& dds = setup.dds;
     spdlog::info(
-        "event=ready domain={} interfaces={} profile={} node={} request_topic={} planner_id={} "
+        "event=ready domain={} interfaces={} profile={} network={} node={} request_topic={} "
+        "planner_id={} "
         "version={} config_hash={} "
         "workers={} queue_capacity={} grippers={}",
         dds.domain, log_value(profile_file_interfaces(dds.profile_file)),
-        log_value(dds.profile_file), log_value(full_name(dds.node)),
+        log_value(dds.profile_file), log_value(setup.network_why), log_value(full_name(dds.node)),
         log_value(dds.names.grasp_request), log_value(dds.planner_id), dds.version, dds.config_hash,
         setup.config.server.workers, setup.config.server.queue_capacity, log_value(names));
 }
