@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 TOKEN = re.compile(r"///<(?P<behind>[^\n]*)|///(?P<before>[^\n]*)|//[^\n]*|(?P<newline>\n)|[ \t\r]+"
                    r"|(?P<word>@?[A-Za-z_][A-Za-z0-9_]*(?:::[A-Za-z_][A-Za-z0-9_]*)*|[0-9]+"
-                   r"|[{}<>\[\];,=])")
+                   r"|[{}<>\[\];,=-])")
 BASIC_TYPES = ("boolean", "octet", "float", "double", "string", "long", "long long", "unsigned long",
                "unsigned long long")
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -168,7 +168,8 @@ class Parser:
         type_name = self.type_name()
         name = self.name()
         self.expect("=")
-        return Constant(type_name, name, self.number(), "")
+        sign = -1 if self.accept("-") else 1
+        return Constant(type_name, name, sign * self.number(), "")
 
     def type_name(self):
         line = self.tokens[self.at]

@@ -8,16 +8,19 @@ import textwrap
 from dataclasses import dataclass
 
 PACKAGE = "graspd_msgs"
-SKIPPED_PACKAGES = ("rmw_dds_common_gid24",)  # Humble's layout under the same ROS 2 names
+# Humble's layout under the same ROS 2 names.
+SKIPPED_PACKAGES = ("rmw_dds_common_gid24", "moveit_msgs_humble")
 COLUMNS = 98
 ROS_TYPES = {"boolean": "bool", "octet": "uint8", "float": "float32", "double": "float64",
              "string": "string", "long": "int32", "unsigned long": "uint32", "long long": "int64",
              "unsigned long long": "uint64"}
 # Where ROS 2 has another type of the same size: (message, member) -> type.
 SPECIAL_TYPES = {("diagnostic_msgs/DiagnosticStatus", "level"): "byte",
-                 ("rmw_dds_common/Gid", "data"): "char"}
+                 ("rmw_dds_common/Gid", "data"): "char",
+                 ("moveit_msgs/CollisionObject", "operation"): "byte"}
 # The same for all constants of a message.
-SPECIAL_CONSTANT_TYPES = {"diagnostic_msgs/DiagnosticStatus": "byte"}
+SPECIAL_CONSTANT_TYPES = {"diagnostic_msgs/DiagnosticStatus": "byte",
+                          "moveit_msgs/CollisionObject": "byte"}
 FRAMES = {
     "F": "F is the frame that the request's header.frame_id names.",
     "O": "O is the coordinates of the mesh or cloud as received; object_pose is O in F.",

@@ -94,7 +94,9 @@ def type_hash(type_name, descriptions):
 TOPIC_TYPES = ("graspd_msgs/msg/GraspRequest", "graspd_msgs/msg/RankedGrasps",
                "graspd_msgs/msg/CancelRequest", "graspd_msgs/msg/PlannerStatus",
                "graspd_msgs/srv/PlanGrasps_Request", "graspd_msgs/srv/PlanGrasps_Response",
-               "graspd_msgs/srv/PlanGrasps", "visualization_msgs/msg/MarkerArray",
+               "graspd_msgs/srv/PlanGrasps", "moveit_msgs/srv/GraspPlanning_Request",
+               "moveit_msgs/srv/GraspPlanning_Response", "moveit_msgs/srv/GraspPlanning",
+               "visualization_msgs/msg/MarkerArray",
                "diagnostic_msgs/msg/DiagnosticArray", "rmw_dds_common/msg/ParticipantEntitiesInfo")
 
 HEADER = """\

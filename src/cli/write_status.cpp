@@ -26,13 +26,14 @@ std::string write_status_table(std::span<const PlannerState> planners) {
     TextTable table;
     table.align_left = {true, true};
     table.rows.push_back({"planner", "state", "queue", "busy", "requests", "p50_ms", "p95_ms",
-                          "lost", "objects", "version"});
+                          "lost", "restarts", "abandoned", "objects", "version"});
     for (const PlannerState& state : planners) {
         table.rows.push_back({state.planner_id, to_string(state.mode),
                               share(state.queue_length, state.queue_capacity),
                               share(state.busy_workers, state.workers),
                               std::to_string(state.requests), fixed(state.latency_p50_ms, 1),
                               fixed(state.latency_p95_ms, 1), std::to_string(state.lost_replies),
+                              std::to_string(state.restarts), std::to_string(state.abandoned_plans),
                               std::to_string(state.cached_objects), state.version});
     }
     return print_table(table);
@@ -57,6 +58,8 @@ std::string write_status_json(std::span<const PlannerState> planners) {
                                    {"replies", replies_of(state)},
                                    {"lost_replies", state.lost_replies},
                                    {"rejected_payloads", state.rejected_payloads},
+                                   {"restarts", state.restarts},
+                                   {"abandoned_plans", state.abandoned_plans},
                                    {"grippers", state.grippers}});
     }
     return out.dump(2) + "\n";

@@ -64,6 +64,8 @@ wire::PlannerStatus_ write_state(const PlannerState& state) {
     out.replies(state.replies);
     out.lost_replies(state.lost_replies);
     out.rejected_payloads(state.rejected_payloads);
+    out.restarts(state.restarts);
+    out.abandoned_plans(state.abandoned_plans);
     out.grippers(state.grippers);
     return out;
 }
@@ -84,6 +86,8 @@ PlannerState read_state(const wire::PlannerStatus_& status) {
             .replies = status.replies(),
             .lost_replies = status.lost_replies(),
             .rejected_payloads = status.rejected_payloads(),
+            .restarts = status.restarts(),
+            .abandoned_plans = status.abandoned_plans(),
             .grippers = status.grippers()};
 }
 
@@ -112,6 +116,8 @@ diagnostic_msgs::msg::dds_::DiagnosticArray_ write_diagnostics(const PlannerStat
     }
     add(status, "lost_replies", std::to_string(state.lost_replies));
     add(status, "rejected_payloads", std::to_string(state.rejected_payloads));
+    add(status, "restarts", std::to_string(state.restarts));
+    add(status, "abandoned_plans", std::to_string(state.abandoned_plans));
     add(status, "grippers", joined(state.grippers));
     return out;
 }

@@ -30,6 +30,8 @@ PlannerState sample_state() {
     state.requests = 8;
     state.replies = {10, 11, 12, 13, 14, 15, 16, 17, 18};
     state.lost_replies = 19;
+    state.restarts = 20;
+    state.abandoned_plans = 21;
     state.grippers = {"one", "two"};
     return state;
 }
@@ -61,6 +63,8 @@ TEST(PlannerStates, ReachALateReader) {
     EXPECT_THAT(state.replies, ElementsAre(10, 11, 12, 13, 14, 15, 16, 17, 18));
     EXPECT_EQ(state.lost_replies, 19u);
     EXPECT_EQ(state.rejected_payloads, 0u);
+    EXPECT_EQ(state.restarts, 20u);
+    EXPECT_EQ(state.abandoned_plans, 21u);
     EXPECT_THAT(state.grippers, ElementsAre("one", "two"));
 }
 
@@ -101,6 +105,8 @@ TEST(PlannerStates, AreDiagnosticsToo) {
     EXPECT_EQ(values.size(), status.values().size());
     EXPECT_EQ(values["queue_length"], "1");
     EXPECT_EQ(values["NO_GRASP"], "11");
+    EXPECT_EQ(values["restarts"], "20");
+    EXPECT_EQ(values["abandoned_plans"], "21");
     EXPECT_EQ(values["grippers"], "one two");
     PlannerState ready;
     EXPECT_EQ(dds::write_diagnostics(ready, "/graspd").status()[0].level(), 0);

@@ -40,6 +40,24 @@ TEST(CdrGolden, PlanGraspsRequest) {
 TEST(CdrGolden, PlanGraspsResponse) {
     expect_golden<graspd_msgs::srv::dds_::PlanGrasps_Response_>("RankedGrasps");
 }
+TEST(CdrGolden, MoveItRequest) {
+    expect_golden<moveit_msgs::srv::dds_::GraspPlanning_Request_>("MoveItRequest");
+}
+TEST(CdrGolden, MoveItResponse) {
+    expect_golden<moveit_msgs::srv::dds_::GraspPlanning_Response_>("MoveItResponse");
+}
+// Humble's response is Jazzy's without the two strings at its end.
+TEST(CdrGolden, MoveItResponseOfHumble) {
+    const Bytes golden = cdr_samples::read_golden("MoveItResponse");
+    moveit_msgs::srv::dds_::GraspPlanning_Response_ jazzy;
+    ASSERT_EQ(cdr_samples::read_cdr(golden, jazzy), 0u);
+    moveit_msgs_humble::srv::dds_::GraspPlanning_Response_ humble;
+    const std::size_t rest = cdr_samples::read_cdr(golden, humble);
+    EXPECT_EQ(humble.error_code().val(), jazzy.error_code().val());
+    EXPECT_EQ(humble.grasps(), jazzy.grasps());
+    EXPECT_EQ(cdr_samples::write_cdr(humble),
+              Bytes(golden.begin(), golden.end() - static_cast<std::ptrdiff_t>(rest)));
+}
 
 // Worked by hand from the CDR rules: numbers stand at multiples of their size counted from behind
 // the 4 bytes of encapsulation, a string is its length with the closing zero, then its characters.

@@ -29,6 +29,8 @@ struct PlannerState {
     std::array<std::uint64_t, 9> replies{};  ///< since the start, by PlanStatus
     std::uint64_t lost_replies = 0;          ///< that a full history or a slow reader cost
     std::uint64_t rejected_payloads = 0;     ///< malformed samples; filled in by the port
+    std::uint32_t restarts = 0;              ///< of the participant by its supervisor
+    std::uint32_t abandoned_plans = 0;       ///< that overran their time budget and were given up
     std::vector<std::string> grippers;       ///< profiles that are loaded
 };
 
