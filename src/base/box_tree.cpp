@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "graspd/base/space_curve.hpp"
+#include "graspd/base/stop.hpp"
 
 namespace graspd {
 namespace {
@@ -71,6 +72,7 @@ private:
             form_clusters(first, middle);
             form_clusters(middle, last);
         } else if (first < last) {
+            stop_point(clusters_.size());
             clusters_.push_back({box_of_things(first, last), first, last});
         }
     }
@@ -125,6 +127,7 @@ private:
     }
 
     std::uint32_t add_leaf(const Part& part) {
+        stop_point(++leaves_);
         const auto first = static_cast<std::uint32_t>(tree_.order.size());
         for (std::uint32_t i = part.first; i < part.last; ++i) {
             tree_.order.push_back(things_[i].number);
@@ -168,6 +171,7 @@ private:
             const int bin = static_cast<int>((cluster.twice_center()[axis] - low) * factor);
             return std::min(bin, kBins - 1);
         };
+        if (part.size() > 1024) stop_point();
         std::array<Box4f, kBins> boxes;
         std::array<std::uint32_t, kBins> counts{};
         for (const Cluster& cluster : part) {
@@ -211,6 +215,7 @@ private:
     const std::vector<Box4f>& boxes_;
     std::vector<CurvePlace> things_;
     std::vector<Cluster> clusters_;
+    std::size_t leaves_ = 0;
     BoxTree tree_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "graspd/base/stop.hpp"
+
 #if defined(__SANITIZE_THREAD__)
 #include <atomic>
 #include <exception>
@@ -10,6 +12,7 @@
 #else
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_group.h>
 #endif
 
 namespace graspd {
@@ -41,14 +44,26 @@ void each_alone(std::size_t count, const std::function<void(std::size_t i)>& wor
 #else
 /// Calls work(i) for every i below count, each as a task of its own.
 void each_alone(std::size_t count, const std::function<void(std::size_t i)>& work) {
+    // Isolated: else an exception beside this loop's caller would end the loop, as if it were done.
+    tbb::task_group_context context(tbb::task_group_context::isolated);
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, 1),
         [&](const tbb::blocked_range<std::size_t>& range) {
             for (std::size_t i = range.begin(); i != range.end(); ++i) work(i);
         },
-        tbb::simple_partitioner());
+        tbb::simple_partitioner(), context);
 }
 #endif
+
+/// each_alone(), stopped as this thread is.
+void each_stoppable(std::size_t count, const std::function<void(std::size_t i)>& work) {
+    const StopQuery* const query = StopScope::current();
+    each_alone(count, [&](std::size_t i) {
+        const StopScope scope(query);
+        stop_point();
+        work(i);
+    });
+}
 
 }  // namespace
 
@@ -56,14 +71,16 @@ void for_blocks(std::size_t count, std::size_t block,
                 const std::function<void(std::size_t first, std::size_t last)>& work) {
     const std::size_t blocks = (count + block - 1) / block;
     if (blocks <= 1) {
+        stop_point();
         if (count > 0) work(0, count);
         return;
     }
-    each_alone(blocks, [&](std::size_t i) { work(i * block, std::min(count, (i + 1) * block)); });
+    each_stoppable(blocks,
+                   [&](std::size_t i) { work(i * block, std::min(count, (i + 1) * block)); });
 }
 
 void run_together(const std::vector<std::function<void()>>& work) {
-    each_alone(work.size(), [&](std::size_t i) { work[i](); });
+    each_stoppable(work.size(), [&](std::size_t i) { work[i](); });
 }
 
 }  // namespace graspd

@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd {
 namespace {
 
@@ -21,6 +23,7 @@ void sort_by_code(std::vector<CurvePlace>& places) {
     constexpr std::uint32_t kDigits = 1u << kAxisBits;
     std::vector<CurvePlace> sorted(places.size());
     for (int shift = 0; shift < CurvePlace::kBits; shift += kAxisBits) {
+        stop_point();
         std::array<std::uint32_t, kDigits + 1> slot{};
         const auto digit = [&](const CurvePlace& place) {
             return (place.code >> shift) & (kDigits - 1);
@@ -44,6 +47,7 @@ std::vector<CurvePlace> order_on_curve(const std::vector<Eigen::Array4f>& points
     // One scale for all axes, so that the cells are cubes.
     const float width = (high - low).head<3>().maxCoeff();
     const float factor = width > 0.0F ? static_cast<float>((1 << kAxisBits) - 1) / width : 0.0F;
+    stop_point();
     std::vector<CurvePlace> places(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const Eigen::Array4f cell = (points[i] - low) * factor;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "graspd/base/lanes.hpp"
+#include "graspd/base/stop.hpp"
 
 namespace graspd {
 namespace {
@@ -112,6 +113,7 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh, double tolerance_m)
     middle_ = bounds_.center();
     const float pad_units = static_cast<float>(tolerance_m / diagonal_m_) + kPad;
     margin_ = static_cast<float>(tolerance_m / diagonal_m_) + kRounding;
+    stop_point();
     std::vector<Eigen::Array4f> units(mesh.vertices.size(), Eigen::Array4f::Zero());
     for (std::size_t v = 0; v < units.size(); ++v) {
         units[v].head<3>() = ((mesh.vertices[v] - middle_) * units_per_m_).cast<float>();
@@ -121,6 +123,7 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh, double tolerance_m)
     std::vector<std::uint32_t> solid;  // faces with an area
     solid.reserve(mesh.faces.size());
     for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
+        stop_point(face);
         const Triangle& t = mesh.faces[face];
         const Eigen::Vector3d& origin = mesh.vertices[t[0]];
         if (!has_area(mesh.vertices[t[1]] - origin, mesh.vertices[t[2]] - origin)) continue;
@@ -132,12 +135,15 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh, double tolerance_m)
     number_.reserve(solid.size());
     faces_.reserve(solid.size());
     for (const std::uint32_t place : tree_.order) {
+        stop_point(number_.size());
         number_.push_back(solid[place]);
         faces_.push_back(mesh.faces[solid[place]]);
     }
     packs_.reserve(tree_.nodes.size() * 3 + 1);
     if (BoxTree::is_leaf(tree_.root)) add_pack(tree_.root);
+    std::size_t step = 0;
     for (BoxTree::Node& node : tree_.nodes) {
+        stop_point(step++);
         for (std::uint32_t& child : node.child) {
             if (BoxTree::is_leaf(child)) add_pack(child);
         }

@@ -8,6 +8,8 @@
 
 #include <Eigen/LU>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd::concavity_detail {
 namespace {
 
@@ -133,7 +135,9 @@ void Front::pass_on(std::uint32_t from, const std::array<std::uint32_t, 4>& cell
 }
 
 std::vector<double> Front::march() {
+    std::size_t step = 0;
     while (!queue_.empty()) {
+        stop_point(step++);
         const auto [value, point] = queue_.top();
         queue_.pop();
         if (final_[point]) continue;

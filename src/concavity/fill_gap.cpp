@@ -19,6 +19,8 @@
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd::concavity_detail {
 namespace {
 
@@ -123,6 +125,7 @@ std::optional<Facet> GapFiller::facet_of(const Triangle& piece) const {
 std::vector<std::size_t> GapFiller::missing_pieces() const {
     std::vector<std::size_t> missing;
     for (std::size_t i = 0; i < surface_.pieces().size(); ++i) {
+        stop_point(i);
         if (!facet_of(surface_.pieces()[i])) missing.push_back(i);
     }
     return missing;
@@ -176,7 +179,9 @@ bool GapFiller::is_before(const Triangle& piece, const Facet& facet) const {
 
 /// Makes every piece a wall on both its sides.
 void GapFiller::raise_walls() {
+    std::size_t step = 0;
     for (const Triangle& piece : surface_.pieces()) {
+        stop_point(step++);
         const Facet facet = facet_of(piece).value();  // make_conforming() saw to it
         for (const Facet& side : {facet, triangulation_.mirror_facet(facet)}) {
             const auto k = static_cast<std::size_t>(side.second);
@@ -194,7 +199,9 @@ void GapFiller::flood() {
         cell->info().is_outside = true;
         stack.push_back(cell);
     }
+    std::size_t step = 0;
     while (!stack.empty()) {
+        stop_point(step++);
         const Cell cell = stack.back();
         stack.pop_back();
         for (int k = 0; k < 4; ++k) {

@@ -7,6 +7,8 @@
 #include <random>
 #include <utility>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd::concavity_detail {
 namespace {
 
@@ -120,7 +122,9 @@ std::vector<Vector2d> GapPoints::outline(const HullFacet& facet,
     const double near_m = kOnPlane * box_.diagonal().norm();
     std::vector<Vector2d> corners;
     Vector2d middle = Vector2d::Zero();
+    std::size_t step = 0;
     for (const std::uint32_t v : hull_.vertices) {
+        stop_point(step++);
         const Vector3d& p = mesh_.vertices[v];
         if (std::abs(facet.normal.dot(p) - facet.offset_m) > near_m) continue;
         corners.emplace_back(axes.transpose() * (p - origin));
@@ -181,7 +185,9 @@ std::optional<PlanError> GapPoints::add_above_vertices() {
     for (const Triangle& t : mesh_.faces) used.insert(used.end(), t.begin(), t.end());
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
+    std::size_t step = 0;
     for (const std::uint32_t v : used) {
+        stop_point(step++);
         const Vector3d& vertex = mesh_.vertices[v];
         const HullPlaneTree::Nearest nearest = planes_.nearest(vertex);
         const double depth_m = nearest.distance_m;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "graspd/base/lanes.hpp"
+#include "graspd/base/stop.hpp"
 #include "graspd/concavity/outer_hull.hpp"
 
 namespace graspd {
@@ -93,6 +94,7 @@ HullPlaneTree::HullPlaneTree(const OuterHull& hull) : facets_(hull.facets) {
     tree_ = build_box_tree(boxes);
     if (BoxTree::is_leaf(tree_.root)) add_pack(tree_.root);
     for (BoxTree::Node& node : tree_.nodes) {
+        stop_point(packs_.size());
         for (std::uint32_t& child : node.child) {
             if (BoxTree::is_leaf(child)) add_pack(child);
         }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
+#include <exception>
 #include <string>
+
+#include "graspd/base/stop.hpp"
 
 extern "C" {
 #include <libqhull_r/qhull_ra.h>
@@ -12,28 +14,61 @@ extern "C" {
 namespace graspd {
 namespace {
 
-/// qhull's state with its error stream, freed on every way out.
-struct QhullSession {
-    qhT state{};
-    char* text = nullptr;
-    std::size_t text_size = 0;
-    FILE* errors = open_memstream(&text, &text_size);
+// qhull reports after so many new facets, a few milliseconds, and a report is where it can be told
+// to stop.
+constexpr const char* kCommand = "qhull Pp TF1000";  // Pp: no warnings; facets merged by default
 
-    QhullSession() { qh_zero(&state, errors); }
+/// qhull's state, freed on every way out, with the stream that it writes errors and reports to.
+///
+/// qhull has no way to be interrupted from outside, and no exception may go through it. But it
+/// reads its limit of added points anew for every point, and it writes a report now and then:
+/// whoever receives that can lower the limit.
+class QhullSession {
+public:
+    QhullSession() {
+        const cookie_io_functions_t functions = {nullptr, &QhullSession::receive, nullptr, nullptr};
+        errors_ = fopencookie(this, "w", functions);
+        if (errors_ != nullptr) std::setvbuf(errors_, nullptr, _IOLBF, BUFSIZ);
+        qh_zero(&state, errors_);
+    }
     QhullSession(const QhullSession&) = delete;
     QhullSession& operator=(const QhullSession&) = delete;
     ~QhullSession() {
         qh_freeqhull(&state, !qh_ALL);
         int remaining = 0, total = 0;
         qh_memfreeshort(&state, &remaining, &total);
-        if (errors != nullptr) std::fclose(errors);
-        std::free(text);
+        if (errors_ != nullptr) std::fclose(errors_);
     }
+
+    FILE* errors() const { return errors_; }
+    bool is_stopped() const { return is_stopped_; }
+    /// Errors begin with their number, reports do not.
     std::string first_error_line() {
-        std::fflush(errors);
-        const std::string all(text, text_size);
-        return all.substr(0, all.find('\n'));
+        std::fflush(errors_);
+        const std::size_t begin = std::min(text_.find("QH"), text_.size());
+        return text_.substr(begin, text_.find('\n', begin) - begin);
     }
+
+    qhT state{};
+
+private:
+    static ssize_t receive(void* session, const char* text, std::size_t size) noexcept {
+        auto& self = *static_cast<QhullSession*>(session);
+        try {
+            self.text_.append(text, self.text_.size() < kMostText ? size : 0);
+            stop_point();
+        } catch (const Stopped&) {
+            self.is_stopped_ = true;
+            self.state.STOPadd = 1;        // no point more than there are
+        } catch (const std::exception&) {  // no memory for the text
+        }
+        return static_cast<ssize_t>(size);
+    }
+
+    static constexpr std::size_t kMostText = 65536;
+    FILE* errors_ = nullptr;
+    std::string text_;
+    bool is_stopped_ = false;
 };
 
 /// @param middle  what was subtracted from the points
@@ -61,19 +96,21 @@ Result<OuterHull> outer_hull(std::span<const Eigen::Vector3d> points) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& point : points) box.extend(point);
     const Eigen::Vector3d middle = box.center();
+    stop_point();
     for (const Eigen::Vector3d& point : points) {
         const Eigen::Vector3d p = point - middle;
         coordinates.insert(coordinates.end(), {p.x(), p.y(), p.z()});
     }
 
     QhullSession session;
-    if (session.errors == nullptr) {
+    if (session.errors() == nullptr) {
         return PlanError{PlanErrorCode::kInternal, "no memory for qhull's error stream"};
     }
     qhT* qh = &session.state;
-    std::string command = "qhull Pp";  // Pp: no precision warnings; facets merged by default
+    std::string command = kCommand;
     const int failed = qh_new_qhull(qh, 3, static_cast<int>(points.size()), coordinates.data(),
-                                    False, command.data(), nullptr, session.errors);
+                                    False, command.data(), nullptr, session.errors());
+    if (session.is_stopped()) throw Stopped{};
     if (failed != 0) {
         return PlanError{PlanErrorCode::kDegenerate, "no convex hull of " +
                                                          std::to_string(points.size()) +
@@ -82,10 +119,12 @@ Result<OuterHull> outer_hull(std::span<const Eigen::Vector3d> points) {
     OuterHull hull;
     facetT* facet = nullptr;
     FORALLfacets {
+        stop_point(hull.facets.size());
         hull.facets.push_back(read_facet(*facet, middle));
     }
     vertexT* vertex = nullptr;
     FORALLvertices {
+        stop_point(hull.vertices.size());
         hull.vertices.push_back(static_cast<std::uint32_t>(qh_pointid(qh, vertex->point)));
     }
     std::ranges::sort(hull.vertices);

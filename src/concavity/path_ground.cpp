@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graspd/base/space_curve.hpp"
+#include "graspd/base/stop.hpp"
 
 namespace graspd::concavity_detail {
 namespace {
@@ -14,6 +15,7 @@ std::vector<std::uint32_t> near_order(const TriangleMesh& mesh, double diagonal_
     for (std::size_t v = 0; v < units.size(); ++v) {
         units[v].head<3>() = ((mesh.vertices[v] - base) / diagonal_m).cast<float>();
     }
+    stop_point();
     std::vector<std::uint32_t> order;
     order.reserve(units.size());
     for (const CurvePlace& place : order_on_curve(units)) order.push_back(place.number);
@@ -37,7 +39,9 @@ double mean_edge(const TriangleMesh& mesh) {
 std::vector<float> spread_of_fans(const TriangleMesh& mesh,
                                   const std::vector<Eigen::Vector3d>& normals) {
     std::vector<float> least(mesh.vertices.size(), 1.0F);  // cosine
-    for (const Triangle& face : mesh.faces) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        stop_point(f);
+        const Triangle& face = mesh.faces[f];
         const Eigen::Vector3d& a = mesh.vertices[face[0]];
         const Eigen::Vector3d cross =
             (mesh.vertices[face[1]] - a).cross(mesh.vertices[face[2]] - a);
@@ -57,7 +61,9 @@ std::vector<char> falling_fans(const TriangleMesh& mesh,
                                const std::vector<Eigen::Vector3d>& normals) {
     constexpr double kFlat = 1e-3;  // sine
     std::vector<char> falls(mesh.vertices.size(), 0);
-    for (const Triangle& face : mesh.faces) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        stop_point(f);
+        const Triangle& face = mesh.faces[f];
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t v = face[k];
             const Eigen::Vector3d edge = mesh.vertices[face[(k + 1) % 3]] - mesh.vertices[v];
@@ -82,6 +88,7 @@ PathGround::PathGround(const TriangleMesh& of, const ConcavityConfig& config)
       order(near_order(of, diagonal_m)) {
     lifted.reserve(of.vertices.size());
     for (std::size_t v = 0; v < of.vertices.size(); ++v) {
+        stop_point(v);
         lifted.push_back(of.vertices[v] + offset_m * normals[v]);
     }
 }

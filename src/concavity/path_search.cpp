@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "graspd/base/parallel.hpp"
+#include "graspd/base/stop.hpp"
 #include "slide_bends.hpp"
 
 namespace graspd::concavity_detail {
@@ -49,6 +50,7 @@ PathSearch::PathSearch(const PathGround& ground, const HullPlaneTree& planes,
     band_.first.assign(count, Band::kEnd);
     band_.last.assign(count, Band::kEnd);
     for (std::uint32_t v = 0; v < count; ++v) {
+        stop_point(v);
         if (!ground.neighbours.of(v).empty()) continue;
         field_.flag[v] = ConcavityFlag::kUnreferenced;
         field_.value_m[v] = std::numeric_limits<double>::quiet_NaN();
@@ -157,6 +159,7 @@ bool PathSearch::accept(std::uint32_t v, const Way& way) {
 /// Step 3: Dijkstra from the proven vertices that border others.
 void PathSearch::propagate_inwards() {
     for (std::uint32_t v = 0; v < field_.flag.size(); ++v) {
+        stop_point(v);
         if (!finished(v)) continue;
         const bool borders = std::ranges::any_of(ground_.neighbours.of(v),
                                                  [&](std::uint32_t u) { return unreached(u); });
@@ -170,6 +173,7 @@ void PathSearch::propagate_inwards() {
 /// relaxations bounds the work.
 void PathSearch::propagate() {
     while (!queue_.empty()) {
+        stop_point();
         take_band(queue_.top().value_m + kBand * ground_.mean_edge_m);
         relax_band();
     }
@@ -179,9 +183,11 @@ void PathSearch::propagate() {
 void PathSearch::take_band(double most_m) {
     band_.targets.clear();
     band_.links.clear();
+    std::size_t taken = 0;
     while (!queue_.empty() && queue_.top().value_m <= most_m) {
         const QueueItem item = queue_.top();
         queue_.pop();
+        stop_point(++taken);
         if (item.value_m > field_.value_m[item.vertex]) continue;
         for (const std::uint32_t to : ground_.neighbours.of(item.vertex)) {
             if (field_.flag[to] == ConcavityFlag::kExact) continue;
@@ -214,6 +220,7 @@ void PathSearch::relax_band() {
     constexpr std::size_t kAtATime = 32;
     for_blocks(band_.targets.size(), kAtATime, relax);
     for (std::size_t i = 0; i < band_.targets.size(); ++i) {
+        stop_point(i);
         accept(band_.targets[i], band_.ways[i]);
         band_.first[band_.targets[i]] = Band::kEnd;
     }
@@ -225,6 +232,7 @@ std::vector<std::uint32_t> PathSearch::unreached_region(std::uint32_t seed,
     std::vector<std::uint32_t> region{seed};
     seen[seed] = 1;
     for (std::size_t i = 0; i < region.size(); ++i) {
+        stop_point(i);
         for (const std::uint32_t u : ground_.neighbours.of(region[i])) {
             if (seen[u] || !unreached(u)) continue;
             seen[u] = 1;
@@ -266,6 +274,7 @@ bool PathSearch::probe_unreached() {
         const std::vector<std::uint32_t> region = unreached_region(seed, seen);
         const std::size_t step = 1 + region.size() / kProbedVertices;
         for (std::size_t i = 0; i < region.size() && probes_ < kMostProbes; i += step) {
+            stop_point();
             Way way = known(region[i]);
             probes_ += kAllDirections;
             if (look_around(region[i], i, kAllDirections, way)) accept(region[i], way);
@@ -301,11 +310,14 @@ ConcavityField PathSearch::take() {
     for (std::uint32_t v = 0; v < field_.value_m.size(); ++v) {
         if (field_.flag[v] == ConcavityFlag::kPath) order.push_back(v);
     }
+    stop_point();
     std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
         return field_.value_m[a] != field_.value_m[b] ? field_.value_m[a] < field_.value_m[b]
                                                       : a < b;
     });
+    std::size_t measured = 0;
     for (const std::uint32_t v : order) {
+        stop_point(measured++);
         field_.value_m[v] = std::min(field_.value_m[v], length_of_way(field_, ground_, planes_, v));
     }
     for (const double value : field_.value_m) {

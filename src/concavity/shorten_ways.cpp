@@ -8,6 +8,7 @@
 
 #include "bend_pool.hpp"
 #include "graspd/base/parallel.hpp"
+#include "graspd/base/stop.hpp"
 #include "path_search.hpp"
 
 namespace graspd::concavity_detail {
@@ -44,7 +45,9 @@ std::vector<std::uint32_t> PathSearch::bent_vertices() const {
 std::vector<std::uint32_t> PathSearch::possible_bends() const {
     const auto on_hull = [&](std::uint32_t v) { return field_.value_m[v] <= ground_.offset_m; };
     std::vector<std::uint32_t> bends;
+    std::size_t seen = 0;
     for (const std::uint32_t v : ground_.order) {
+        stop_point(seen++);
         if (!finished(v) || !ground_.can_bend[v]) continue;
         if (on_hull(v) && std::ranges::all_of(ground_.neighbours.of(v), on_hull)) continue;
         bends.push_back(v);
@@ -169,6 +172,7 @@ std::vector<char> PathSearch::improve(
             search(vertices[i], i, ways[i]);
         }
     });
+    stop_point();
     std::vector<char> gained(vertices.size(), 0);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         gained[i] = ways[i].value_m < field_.value_m[vertices[i]] * (1.0 - kLeastGain);
@@ -225,6 +229,7 @@ void PathSearch::shorten_all(const std::vector<std::uint32_t>& bent) {
 void PathSearch::shorten_across_the_void() {
     const std::vector<std::uint32_t> bent = bent_vertices();
     if (bent.empty()) return;
+    stop_point();
     shorten_bends(true);
     shorten_all(bent);
     shorten_bends(false);

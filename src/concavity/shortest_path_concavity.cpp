@@ -6,6 +6,7 @@
 #include <string>
 
 #include "graspd/base/parallel.hpp"
+#include "graspd/base/stop.hpp"
 #include "path_ground.hpp"
 #include "path_search.hpp"
 
@@ -15,6 +16,8 @@ namespace {
 using concavity_detail::PathGround;
 using concavity_detail::PathSearch;
 
+constexpr const char* kStage = "concavity/shortest_path_concavity";
+
 /// Runs steps and notes how long they took.
 class StepTimer {
 public:
@@ -22,13 +25,13 @@ public:
 
     template <class Work>
     void run(const char* step, Work&& work) {
-        const double ms = time_of(work);
+        const double ms = time_of(kStage, work);
         times_.push_back({step, ms});
     }
     template <class Work>
-    static double time_of(Work&& work) {
+    static double time_of(const char* stage, Work&& work) {
         const auto start = std::chrono::steady_clock::now();
-        work();
+        as_stage(stage, work);
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
             .count();
     }
@@ -126,18 +129,19 @@ Result<MeasuredConcavity> measure_concavity(const TriangleMesh& mesh,
     std::optional<PathGround> ground;
     double hull_ms = 0.0, planes_ms = 0.0, tree_ms = 0.0, ground_ms = 0.0;
     const auto outside = [&] {
-        hull_ms = StepTimer::time_of([&] { hull.emplace(outer_hull(mesh.vertices)); });
+        hull_ms = StepTimer::time_of("concavity/outer_hull",
+                                     [&] { hull.emplace(outer_hull(mesh.vertices)); });
         if (!hull->ok()) return;
-        planes_ms = StepTimer::time_of([&] { planes.emplace(hull->value()); });
+        planes_ms = StepTimer::time_of(kStage, [&] { planes.emplace(hull->value()); });
     };
     const auto rays = [&] {
-        tree_ms = StepTimer::time_of([&] {
+        tree_ms = StepTimer::time_of("base/triangle_bvh", [&] {
             measured.tree =
                 std::make_shared<const TriangleBvh>(mesh, ray_tolerance_m(mesh, config));
         });
     };
     const auto surface = [&] {
-        ground_ms = StepTimer::time_of([&] { ground.emplace(mesh, config); });
+        ground_ms = StepTimer::time_of(kStage, [&] { ground.emplace(mesh, config); });
     };
     run_together({outside, rays, surface});
     if (!hull->ok()) return hull->error();

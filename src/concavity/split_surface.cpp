@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fast_marching.hpp"
+#include "graspd/base/stop.hpp"
 
 namespace graspd::concavity_detail {
 namespace {
@@ -70,7 +71,9 @@ std::size_t SplitSurface::flip_flat(
     const auto pieces = pieces_at_edges();
     std::vector<char> touched(pieces_.size(), 0);  // for these `pieces` no longer holds
     std::size_t flips = 0;
+    std::size_t step = 0;
     for (const std::size_t i : which) {
+        stop_point(step++);
         for (std::size_t k = 0; k < 3 && !touched[i]; ++k) {
             const auto [a, b, c] = from_edge(pieces_[i], k);
             const PiecesAtEdge& at = pieces.at(edge_key(a, b));
@@ -126,7 +129,11 @@ void SplitSurface::split(std::vector<Vector3d>& points) {
     }
     std::vector<Triangle> pieces;
     pieces.reserve(pieces_.size() + 2 * marked_.size());
-    for (const Triangle& piece : pieces_) cut(piece, points, pieces);
+    std::size_t step = 0;
+    for (const Triangle& piece : pieces_) {
+        stop_point(step++);
+        cut(piece, points, pieces);
+    }
     pieces_ = std::move(pieces);
     marked_.clear();
     middle_.clear();
@@ -135,7 +142,9 @@ void SplitSurface::split(std::vector<Vector3d>& points) {
 bool SplitSurface::split_long_edges(double longest, std::size_t most,
                                     std::vector<Vector3d>& points) {
     while (pieces_.size() <= most) {
+        std::size_t step = 0;
         for (const Triangle& piece : pieces_) {
+            stop_point(step++);
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t a = piece[k], b = piece[(k + 1) % 3];
                 if ((points[a] - points[b]).norm() > longest) mark(a, b);

@@ -11,6 +11,7 @@
 #include "fill_gap.hpp"
 #include "gap_points.hpp"
 #include "graspd/base/settings.hpp"
+#include "graspd/base/stop.hpp"
 #include "split_surface.hpp"
 #include "work_limits.hpp"
 
@@ -89,8 +90,13 @@ FrontSources sources_on(const OuterHull& hull, const Tetrahedra& space, const Un
         return planes.nearest(frame.to_metres(p)).distance_m <= kOnHull * frame.diagonal_m;
     };
     FrontSources sources;
-    for (const Vector3d& p : space.points) sources.is_source.push_back(is_on_hull(p));
+    for (const Vector3d& p : space.points) {
+        stop_point(sources.is_source.size());
+        sources.is_source.push_back(is_on_hull(p));
+    }
+    std::size_t step = 0;
     for (const auto& cell : space.cells) {
+        stop_point(step++);
         for (std::size_t i = 0; i < 4; ++i) {
             for (std::size_t k = i + 1; k < 4; ++k) {
                 const std::uint32_t a = cell[i], b = cell[k];

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd::concavity_detail {
 namespace {
 
@@ -28,11 +30,13 @@ VertexNeighbours::VertexNeighbours(const TriangleMesh& mesh) : start_(mesh.verti
     for (const Triangle& face : mesh.faces) {
         for (const std::uint32_t v : face) ++start_[v];
     }
+    stop_point();
     std::uint32_t end = 0;
     for (std::uint32_t& row : start_) row = end += row;
     neighbour_.resize(end);
     face_.resize(end);
     for (std::size_t f = mesh.faces.size(); f-- > 0;) {
+        stop_point(f);
         const Triangle& face = mesh.faces[f];
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t place = --start_[face[k]];
@@ -44,7 +48,9 @@ VertexNeighbours::VertexNeighbours(const TriangleMesh& mesh) : start_(mesh.verti
 
 std::vector<Eigen::Vector3d> angle_weighted_normals(const TriangleMesh& mesh) {
     std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
-    for (const Triangle& face : mesh.faces) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        stop_point(f);
+        const Triangle& face = mesh.faces[f];
         const Eigen::Vector3d& a = mesh.vertices[face[0]];
         const Eigen::Vector3d ab = mesh.vertices[face[1]] - a;
         const Eigen::Vector3d ac = mesh.vertices[face[2]] - a;

@@ -2,12 +2,15 @@
 
 #include <sstream>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd::concavity_detail {
 
 WorkLimits::WorkLimits(const TetrahedralConfig& config)
     : config_(config), start_(std::chrono::steady_clock::now()) {}
 
 std::optional<PlanError> WorkLimits::exceeded(std::size_t cells) const {
+    stop_point();
     std::ostringstream text;
     if (cells > config_.max_cells) {
         text << "tetrahedral_concavity.max_cells = " << config_.max_cells << " is passed: " << cells

@@ -6,6 +6,7 @@
 
 #include "graspd/base/plane_points.hpp"
 #include "graspd/base/settings.hpp"
+#include "graspd/base/stop.hpp"
 
 namespace graspd {
 namespace {
@@ -56,8 +57,10 @@ Result<std::vector<OppositeCandidate>> opposite_candidates(std::span<const Surfa
                                                            const OppositeCandidatesConfig& config) {
     if (auto bad = validate(config, "opposite_candidates.")) return *bad;
     if (auto bad = check_positive("opposite_candidates: opening_m", opening_m)) return *bad;
+    constexpr std::size_t kSamplesAtATime = 32;
     std::vector<OppositeCandidate> candidates;
     for (std::uint32_t i = 0; i < samples.size(); ++i) {
+        if (i % kSamplesAtATime == 0) stop_point();
         if (!std::isfinite(samples[i].concavity_m)) continue;  // no hand gets there
         auto candidate = opposite_of(samples[i], mesh_O, tree_O, opening_m, config);
         if (!candidate) continue;

@@ -10,6 +10,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include "cloud_surface.hpp"
+#include "graspd/base/stop.hpp"
 
 namespace graspd::mesh_detail {
 namespace {
@@ -58,6 +59,7 @@ public:
 
         FrontEntry(double value, Edge* edge) : first(value), second(edge) {
             const auto& [cell, from, to] = edge->first.first;
+            stop_point();  // CGAL has no place for it, but asks for an entry again and again
             ends_ = std::minmax({cell->vertex(from)->id(), cell->vertex(to)->id()});
         }
         bool operator<(const FrontEntry& other) const {

@@ -12,11 +12,21 @@
 #include <CGAL/alpha_wrap_3.h>
 #include <CGAL/property_map.h>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd::mesh_detail {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+
+/// Asks at every facet of the wrap under way.
+struct StoppableWrap : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
+    template <class Wrapper, class Gate>
+    void before_facet_treatment(const Wrapper& /*wrapper*/, const Gate& /*gate*/) {
+        stop_point();
+    }
+};
 
 /// Takes the box around a soup to one of diagonal 1 about the origin, so that the wrap does not
 /// depend on the unit, and no digits are lost far from the origin.
@@ -91,6 +101,7 @@ std::vector<std::uint32_t> nearest_vertices(const TriangleMesh& mesh, const Tria
     std::vector<std::uint32_t> nearest;
     nearest.reserve(mesh.vertices.size());
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        stop_point(v);
         const Search search(tree, to_point(mesh.vertices[v]));
         auto candidate = search.begin();
         nearest.push_back(candidate->first.second);
@@ -118,7 +129,10 @@ Result<AlphaWrap> wrap(const TriangleMesh& soup, double alpha, double offset) {
         return PlanError{PlanErrorCode::kDegenerate, "no face of the mesh has an area"};
     }
     Surface surface;
-    CGAL::alpha_wrap_3(points, unit.faces, alpha, offset, surface);
+    StoppableWrap stoppable;
+    stop_point();
+    CGAL::alpha_wrap_3(points, unit.faces, alpha, offset, surface,
+                       CGAL::parameters::default_values(), CGAL::parameters::visitor(stoppable));
     if (surface.number_of_faces() == 0) {
         return PlanError{PlanErrorCode::kDegenerate, "the alpha wrap of the mesh is empty"};
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "graspd/base/stop.hpp"
 #include "hash_bits.hpp"
 #include "weld_vertices.hpp"
 
@@ -71,10 +72,12 @@ std::vector<char> possible_duplicates(const MeshEdges& edges) {
 void drop_duplicates(CleanFaces& result) {
     const std::vector<char> possible = possible_duplicates(result.edges);
     if (possible.empty()) return;
+    stop_point();
     FaceSet seen(static_cast<std::size_t>(std::ranges::count(possible, 1)));
     std::vector<Triangle>& faces = result.mesh.faces;
     std::size_t kept = 0;
     for (std::size_t face = 0; face < faces.size(); ++face) {
+        stop_point(face);
         if (possible[face] && !seen.insert(faces[face])) continue;
         faces[kept++] = faces[face];
     }
@@ -116,9 +119,12 @@ CleanFaces clean_faces(const TriangleMesh& soup, const std::vector<char>& in_use
                        double tolerance_m) {
     CleanFaces result;
     const std::vector<std::uint32_t> leader = weld_vertices(soup.vertices, in_use, tolerance_m);
+    stop_point();
     keep_faces(soup, leader, result);
+    stop_point();
     renumber(soup, leader, result);
     result.edges = collect_edges(result.mesh.faces, result.mesh.vertices.size());
+    stop_point();
     drop_duplicates(result);
     return result;
 }

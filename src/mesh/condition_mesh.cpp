@@ -10,6 +10,7 @@
 #include "clean_faces.hpp"
 #include "fill_holes.hpp"
 #include "graspd/base/settings.hpp"
+#include "graspd/base/stop.hpp"
 #include "mesh_edges.hpp"
 #include "orient_faces.hpp"
 #include "solid_properties.hpp"
@@ -53,6 +54,7 @@ std::optional<PlanError> check_counts(const TriangleMesh& soup, const ConditionM
 
 std::optional<PlanError> check_values(const TriangleMesh& soup) {
     for (std::size_t i = 0; i < soup.vertices.size(); ++i) {
+        stop_point(i);
         const Eigen::Vector3d& vertex = soup.vertices[i];
         if (vertex.allFinite()) continue;
         return error(PlanErrorCode::kInvalidInput, "mesh vertex ", i, " = (", vertex.x(), ", ",
@@ -125,14 +127,18 @@ struct ClosedSolid {
 
 /// Turns the faces that disagree with their patch, closes the holes, turns the surfaces outward.
 ClosedSolid close_and_orient(TriangleMesh& mesh, const MeshEdges& edges, FindingList& findings) {
+    stop_point();
     Orientation patches = orient_faces(mesh.faces, edges);
+    stop_point();
     DisjointSets groups(patches.patches);
     const auto [open, seam_m] = find_open_edges(mesh, edges, patches, groups);
     if (patches.flipped > 0) turn_faces(patches.flip, mesh.faces);
     const auto loops = walk_loops(open, mesh.vertices.size());
     const HoleFill fill = fill_holes(open, loops, mesh, patches.patch_of_face, groups);
+    stop_point();
     const OutwardSolid outward = turn_outward(mesh, patches.patch_of_face, patches.patches, groups);
 
+    stop_point();
     findings.add("faces_flipped", patches.flipped, " faces were wound against their neighbours");
     if (!loops.empty()) {
         findings.add("holes_filled", static_cast<double>(loops.size()), " boundary loops closed, ",
@@ -225,12 +231,14 @@ Result<ConditionedMesh> condition_mesh(const TriangleMesh& soup,
     if (auto bad = validate(config, "condition_mesh.")) return *bad;
     if (auto bad = check_counts(soup, config)) return *bad;
     if (auto bad = check_values(soup)) return *bad;
+    stop_point();
     const std::vector<char> in_use = vertices_in_use(soup);
     const double diagonal_m = diagonal_of(soup, in_use);
     if (!std::isfinite(diagonal_m)) {
         return error(PlanErrorCode::kInvalidInput, "mesh extent ", diagonal_m,
                      " m: its bounding box is too large to measure");
     }
+    stop_point();
     const bool exact = config.weld_tolerance < kLeastWeldTolerance;
     CleanFaces clean = clean_faces(soup, in_use, exact ? 0.0 : config.weld_tolerance * diagonal_m);
     if (clean.mesh.faces.empty()) {

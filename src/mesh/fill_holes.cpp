@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "graspd/base/stop.hpp"
 #include "hash_bits.hpp"
 
 namespace graspd::mesh_detail {
@@ -25,6 +26,7 @@ public:
     void add_simple(const MeshEdges& edges) {
         if (edges.open_edges == 0 && !edges.at_odds) return;
         for (std::uint32_t half = 0; half < edges.across.size(); ++half) {
+            stop_point(half);
             const std::uint32_t other = edges.across[half];
             if (other == kNone || other < half) continue;
             if (other == half) {
@@ -45,6 +47,7 @@ public:
         });
         surplus_of_patch_.resize(patches_.patches);
         for (std::size_t begin = 0, end = 0; begin < crowded.size(); begin = end) {
+            stop_point(begin);
             while (end < crowded.size() && crowded[end].edge == crowded[begin].edge) ++end;
             balance(std::span(crowded).subspan(begin, end - begin), groups);
         }
@@ -144,6 +147,7 @@ std::vector<std::vector<std::uint32_t>> walk_loops(const std::vector<OpenEdge>& 
                 path.resize(begin);
                 continue;
             }
+            stop_point(path.size());
             const std::uint32_t edge = first[at];
             assert(edge != kNone);  // as many open edges start at a vertex as end there
             first[at] = next[edge];
@@ -168,6 +172,7 @@ HoleFill fill_holes(const std::vector<OpenEdge>& open,
             (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
     };
     for (const std::vector<std::uint32_t>& loop : loops) {
+        stop_point(mesh.faces.size());
         const std::uint32_t patch = open[loop.front()].patch;
         for (const std::uint32_t i : loop) groups.unite(patch, open[i].patch);
         if (loop.size() == 3) {

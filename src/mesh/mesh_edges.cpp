@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "graspd/base/stop.hpp"
 #include "hash_bits.hpp"
 
 namespace graspd::mesh_detail {
@@ -34,6 +35,7 @@ struct Buckets {
             each = sum;
             sum += size;
         }
+        stop_point();
         entries = std::make_unique_for_overwrite<Entry[]>(sum);
         std::uint32_t half2 = 0;
         const auto add = [&](std::uint32_t from, std::uint32_t to) {
@@ -41,7 +43,9 @@ struct Buckets {
             entries[end[rising ? from : to]++] = {rising ? to : from, half2 + rising};
             half2 += 2;
         };
-        for (const Triangle& face : faces) {
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            stop_point(f);
+            const Triangle& face = faces[f];
             add(face[0], face[1]);
             add(face[1], face[2]);
             add(face[2], face[0]);
@@ -65,12 +69,15 @@ MeshEdges collect_edges(const std::vector<Triangle>& faces, std::size_t vertex_c
     MeshEdges result;
     result.across.resize(3 * faces.size());
     const Buckets buckets(faces, vertex_count);
+    stop_point();
     const Entry* const entries = buckets.entries.get();
     // Per higher vertex the first entry of an edge to it. What an earlier bucket wrote lies before
     // this bucket's begin, so nothing needs to be wiped.
     std::vector<std::uint32_t> first_on(vertex_count, kNone);
     std::uint32_t begin = 0;
+    std::size_t vertex = 0;
     for (const std::uint32_t end : buckets.end) {
+        stop_point(vertex++);
         const std::size_t crowded_before = result.crowded_edges;
         for (std::uint32_t i = begin; i < end; ++i) {
             const std::uint32_t half = entries[i].half();

@@ -3,6 +3,7 @@
 #include <span>
 #include <utility>
 
+#include "graspd/base/stop.hpp"
 #include "hash_bits.hpp"
 
 namespace graspd::mesh_detail {
@@ -18,6 +19,7 @@ std::size_t spread_over_patch(const std::vector<Triangle>& faces, const MeshEdge
     queue[0] = seed;
     result.patch_of_face[seed] = result.patches;
     for (std::size_t next = 0; next < count; ++next) {
+        stop_point(next);
         const std::uint32_t face = queue[next];
         for (std::uint32_t half = 3 * face; half < 3 * face + 3; ++half) {
             const std::uint32_t other = edges.across[half];
@@ -51,6 +53,7 @@ Orientation orient_faces(const std::vector<Triangle>& faces, const MeshEdges& ed
     result.flip.assign(faces.size(), 0);
     std::vector<std::uint32_t> queue(faces.size());
     for (std::uint32_t seed = 0; seed < faces.size(); ++seed) {
+        stop_point(seed);
         if (result.patch_of_face[seed] != kNone) continue;
         const std::size_t count = spread_over_patch(faces, edges, seed, result, queue);
         if (edges.at_odds) {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd {
 namespace {
 
@@ -13,7 +15,9 @@ constexpr double kVanishing = 1e-9;  // rounding of the third moment, relative t
 /// Calls visit(twice the area, corner, corner, corner) for every face.
 template <class Visit>
 void for_each_face(const TriangleMesh& mesh, Visit&& visit) {
-    for (const Triangle& t : mesh.faces) {
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        stop_point(f);
+        const Triangle& t = mesh.faces[f];
         const Eigen::Vector3d& a = mesh.vertices[t[0]];
         const Eigen::Vector3d& b = mesh.vertices[t[1]];
         const Eigen::Vector3d& c = mesh.vertices[t[2]];

@@ -9,6 +9,7 @@
 
 #include "graspd/base/plane_points.hpp"
 #include "graspd/base/settings.hpp"
+#include "graspd/base/stop.hpp"
 
 namespace graspd {
 namespace {
@@ -96,6 +97,7 @@ std::optional<PlanError> check_values(const TriangleMesh& mesh, std::span<const 
                                                        " vertices");
     }
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        stop_point(f);
         for (const std::uint32_t v : mesh.faces[f]) {
             const bool good = v < mesh.vertices.size() && mesh.vertices[v].allFinite() &&
                               value_m[v] >= 0.0;  // a NaN is not
@@ -123,7 +125,9 @@ double choose_spacing(std::span<const Face> faces, double configured_m, double m
     // The same sum whatever the order of faces.
     std::vector<double> areas(faces.size());
     std::ranges::transform(faces, areas.begin(), &Face::area_m2);
+    stop_point();
     std::ranges::sort(areas);
+    stop_point();
     area_m2 = 0.0;
     for (const double area : areas) area_m2 += area;
     const double growth = std::sqrt(area_m2 / max_samples) / configured_m - 1.0;
@@ -159,11 +163,15 @@ private:
 
     double spacing_m_;
     std::vector<SurfaceSample>& samples_;
+    std::size_t rows_ = 0;
 };
 
 void Scanner::scan(const Face& face) {
     const auto [low, high] = extent(face, (face.axis + 2) % 3);
-    for (double j = first_line(low); line_at(j) < high; j += 1.0) scan_row(face, line_at(j));
+    for (double j = first_line(low); line_at(j) < high; j += 1.0) {
+        stop_point(++rows_);
+        scan_row(face, line_at(j));
+    }
 }
 
 void Scanner::scan_row(const Face& face, double row) {
@@ -261,6 +269,7 @@ Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::span<const 
     faces.reserve(mesh.faces.size());
     double reach_m = 0.0;
     for (const Triangle& t : mesh.faces) {
+        stop_point(faces.size());
         faces.push_back(make_face(mesh, value_m, t));
         for (const Eigen::Vector3d& corner : faces.back().corner) {
             reach_m = std::max(reach_m, corner.lpNorm<Eigen::Infinity>());
@@ -282,13 +291,16 @@ Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::span<const 
         return error(PlanErrorCode::kTooLarge,
                      "the faces span " + std::to_string(rows) + " grid rows, more than 1e8");
     }
+    std::size_t step = 0;
     for (const Face& face : faces) {
+        stop_point(step++);
         if (face.area_m2 > 0.0) scanner.scan(face);
     }
     if (surface.samples.empty()) {
         return error(PlanErrorCode::kDegenerate, "no line of the grid meets the surface; spacing " +
                                                      std::to_string(surface.spacing_m) + " m");
     }
+    stop_point();
     surface.samples = in_order(surface.samples, surface.spacing_m);
     return surface;
 }

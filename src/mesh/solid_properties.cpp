@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "graspd/base/stop.hpp"
 #include "hash_bits.hpp"
 
 namespace graspd::mesh_detail {
@@ -25,6 +26,7 @@ SolidProperties integrate_about(const TriangleMesh& mesh, const Eigen::Vector3d&
     SolidProperties solid;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        stop_point(f);
         const Triangle& face = mesh.faces[f];
         const Eigen::Vector3d a = mesh.vertices[face[0]] - middle;
         const Eigen::Vector3d b = mesh.vertices[face[1]] - middle;
@@ -70,6 +72,7 @@ OutwardSolid turn_outward(TriangleMesh& mesh, const std::vector<std::uint32_t>& 
 
 double surface_area_m2(const TriangleMesh& mesh) {
     double area_m2 = 0.0;
+    stop_point();
     for (const Triangle& face : mesh.faces) {
         const Eigen::Vector3d& a = mesh.vertices[face[0]];
         area_m2 += 0.5 * (mesh.vertices[face[1]] - a).cross(mesh.vertices[face[2]] - a).norm();
@@ -85,6 +88,7 @@ std::uint32_t count_components(const TriangleMesh& mesh,
     std::uint32_t count = patches;
     std::vector<std::uint32_t> patch_of_vertex(mesh.vertices.size(), kNone);
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        stop_point(f);
         const std::uint32_t patch = patch_of_face[f];
         for (const std::uint32_t vertex : mesh.faces[f]) {
             std::uint32_t& known = patch_of_vertex[vertex];

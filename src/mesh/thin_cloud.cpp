@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "graspd/base/stop.hpp"
 #include "hash_bits.hpp"
 #include "weld_vertices.hpp"
 
@@ -43,8 +44,9 @@ private:
 std::size_t count_cubes(const std::vector<Eigen::Vector3d>& points, const CubeGrid& grid) {
     constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
     std::vector<std::uint64_t> table(table_size(points.size()), kEmpty);
-    std::size_t count = 0;
+    std::size_t count = 0, step = 0;
     for (const Eigen::Vector3d& point : points) {
+        stop_point(step++);
         const std::uint64_t key = grid.key(point);
         std::size_t slot = spread_bits(key) & (table.size() - 1);
         while (table[slot] != kEmpty && table[slot] != key) slot = (slot + 1) & (table.size() - 1);
@@ -81,8 +83,10 @@ std::vector<std::uint32_t> choose_in_cubes(const std::vector<Eigen::Vector3d>& p
     std::vector<std::pair<std::uint64_t, std::uint32_t>> by_cube;
     by_cube.reserve(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) by_cube.emplace_back(grid.key(points[i]), i);
+    stop_point();
     std::ranges::sort(by_cube);
     std::vector<std::uint32_t> leader(points.size());
+    stop_point();
     for (auto first = by_cube.begin(); first != by_cube.end();) {
         const auto last = std::find_if(first, by_cube.end(),
                                        [&](const auto& e) { return e.first != first->first; });
@@ -123,7 +127,9 @@ ThinnedCloud sorted_finite(const std::vector<Eigen::Vector3d>& cloud) {
     for (std::uint32_t i = 0; i < cloud.size(); ++i) {
         if (cloud[i].allFinite()) order.push_back(i);
     }
+    std::size_t step = 0;
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
+        stop_point(++step);
         return std::lexicographical_compare(cloud[a].begin(), cloud[a].end(), cloud[b].begin(),
                                             cloud[b].end());
     };

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 
+#include "graspd/base/stop.hpp"
 #include "hash_bits.hpp"
 
 namespace graspd::mesh_detail {
@@ -130,6 +131,7 @@ std::vector<std::uint32_t> weld_vertices(const std::vector<Eigen::Vector3d>& ver
     std::array<Place, kBlock> places;
     const std::uint32_t count = static_cast<std::uint32_t>(vertices.size());
     for (std::uint32_t begin = 0; begin < count; begin += kBlock) {
+        stop_point(begin);
         const std::uint32_t end = std::min(count, begin + kBlock);
         for (std::uint32_t i = begin; i < end; ++i) {
             if (!in_use[i]) continue;

@@ -48,15 +48,21 @@ void Answer::conclude(Found found, const Eigen::Isometry3d& X_FP) {
     reply.report.rejections = found.rejections.counts();
     reply.report.near_misses = found.rejections.misses();
     for (NearMiss& miss : reply.report.near_misses) miss.X_FG = X_FP * miss.X_FG;
-    if (found.stopped) {
-        reply.status = PlanStatus::kPartial;
-        reply.message = "stopped before the end; the best of the rounds that were done";
-    } else if (reply.grasps.empty()) {
+    if (reply.grasps.empty()) {
         reply.status = PlanStatus::kNoGrasp;
         reply.message = why_none(reply.report.rejections);
     } else {
         reply.status = PlanStatus::kOk;
     }
+}
+
+PlanReply Answer::stop(const Stopped& stopped) {
+    const std::string where = stopped.where == nullptr ? "between two stages" : stopped.where;
+    reply.status = PlanStatus::kPartial;
+    reply.message = "stopped in " + where +
+                    (reply.grasps.empty() ? "; the rounds that were done, if any, gave no grasp"
+                                          : "; the best of the rounds that were done");
+    return finish();
 }
 
 PlanReply Answer::finish() {

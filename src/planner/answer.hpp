@@ -12,9 +12,9 @@ namespace graspd::planner_detail {
 
 /// What was found within the limits of one request.
 struct Found {
-    std::vector<Grasp> grasps;  ///< best first, in F
-    Rejections rejections;      ///< poses of misses in P
-    bool stopped = false;       ///< the caller wanted no more
+    std::vector<Grasp> grasps;       ///< best first, in F
+    Rejections rejections;           ///< poses of misses in P
+    std::optional<Stopped> stopped;  ///< the caller wanted no more
 };
 
 /// The reply under construction.
@@ -27,6 +27,8 @@ struct Answer {
     PlanReply refuse(const PlanError& error);
     /// Grasps, rejections, status and message. @param X_FP  to say the misses in F
     void conclude(Found found, const Eigen::Isometry3d& X_FP);
+    /// The reply when the caller wants no more: PARTIAL, with what conclude() has put in.
+    PlanReply stop(const Stopped& stopped);
     PlanReply finish();
 };
 

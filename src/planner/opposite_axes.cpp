@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd::planner_detail {
 namespace {
 
@@ -106,6 +108,7 @@ std::vector<ClosingAxis> opposite_axes(const std::vector<Concavity>& regions,
         config.extract_concave_areas.min_depth_finger_thicknesses * gripper.finger_thickness_m);
     std::vector<ClosingAxis> axes;
     for (const OppositeCandidate& candidate : candidates.value()) {
+        stop_point(axes.size());
         ClosingAxis axis;
         axis.left_P = candidate.left_O;
         axis.right_P = candidate.right_O;

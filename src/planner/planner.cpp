@@ -7,6 +7,7 @@
 #include "graspd/base/fnv1a.hpp"
 #include "graspd/base/parallel.hpp"
 #include "graspd/base/settings.hpp"
+#include "graspd/base/stop.hpp"
 #include "pose_tolerance.hpp"
 #include "search_grasps.hpp"
 #include "select_grasps.hpp"
@@ -66,9 +67,9 @@ Judgement judgement_of(const PlanRequest& request, const Scene& scene, const Gri
 }
 
 /// Sections II-B to II-F (concavities, boundaries, candidates, force balance, manipulability): what
-/// there is within the limits of a request.
+/// there is within the limits of a request. When it is stopped, what the rounds until then gave.
 Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const PlannerConfig& config,
-                          const StopQuery& stop_requested, StageLog& log) {
+                          StageLog& log) {
     Found found;
     std::vector<GradedGrasp> grasps;
     for (std::size_t i = 0; i < request.grippers.size() && !found.stopped; ++i) {
@@ -79,12 +80,13 @@ Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const Planne
             scene.seen.push_back(std::move(seen).value());
         }
         const Judgement judgement = judgement_of(request, scene, gripper, config);
-        auto of_gripper = search_grasps(judgement, scene.seen[i], stop_requested, log);
+        auto of_gripper = search_grasps(judgement, scene.seen[i], log);
         std::ranges::move(of_gripper.grasps, std::back_inserter(grasps));
         found.rejections.merge(of_gripper.rejections);
         found.stopped = of_gripper.stopped;
     }
-    // II-F: the best per concavity, then the best over all.
+    // II-F: the best per concavity, then the best over all; of what was found until a stop as well.
+    const StopScope to_the_end(nullptr);
     auto best = select_grasps(std::move(grasps), scene.surroundings.world(), request, config,
                               scene.X_FP, found.rejections, log);
     if (!best) return best.error();
@@ -92,39 +94,40 @@ Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const Planne
     return found;
 }
 
-/// What errors of the hand's pose the best few stand.
+/// What errors of the hand's pose the best few stand; none is told when this is stopped.
 void measure_tolerances(const PlanRequest& request, std::vector<Grasp>& grasps, const Scene& scene,
                         const PlannerConfig& config, StageLog& log) {
     const std::size_t count = std::min<std::size_t>(config.search.tolerances, grasps.size());
     if (count == 0) return;
     constexpr const char* kTolerance = "planner/pose_tolerance";
+    std::vector<PoseTolerance> tolerances(count);
     log.run(kTolerance, count, [&] {
         for_blocks(count, 1, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 const auto gripper =
                     std::ranges::find(request.grippers, grasps[i].gripper_name, &Gripper::name);
-                grasps[i].tolerance =
+                tolerances[i] =
                     pose_tolerance(grasps[i], judgement_of(request, scene, *gripper, config));
             }
         });
         return 0;
     });
+    for (std::size_t i = 0; i < count; ++i) grasps[i].tolerance = tolerances[i];
     log.out(kTolerance, count);
 }
 
-/// What would help, by planning again for the same object within other limits.
+/// What would help, by planning again for the same object within other limits. Throws Stopped.
 std::string suggestion_for(const PlanRequest& request, const Found& found, Scene& scene,
-                           const PlannerConfig& config, const StopQuery& stop_requested,
-                           StageLog& log) {
+                           const PlannerConfig& config, StageLog& log) {
     constexpr const char* kSuggest = "planner/suggest";
     PlanRequest limits = request;  // copied for every plan, so without its bulk
     limits.object_O = TriangleMesh{};
     limits.obstacles.clear();
-    const Replan replan = [&](const PlanRequest& changed) -> std::optional<std::vector<Grasp>> {
+    const Replan replan = [&](const PlanRequest& changed) -> std::vector<Grasp> {
         StageLog log_of_its_own;
-        auto again = find_grasps(changed, scene, config, stop_requested, log_of_its_own);
+        auto again = find_grasps(changed, scene, config, log_of_its_own);
         if (!again) return std::vector<Grasp>{};
-        if (again.value().stopped) return std::nullopt;
+        if (again.value().stopped) throw Stopped{kSuggest};
         return std::move(again.value().grasps);
     };
     const double widest_m =
@@ -136,15 +139,45 @@ std::string suggestion_for(const PlanRequest& request, const Found& found, Scene
     return suggestion.text;
 }
 
+/// Throws Stopped where the caller wants no more; `answer` then holds what was concluded.
+PlanReply plan_to_the_end(const PlanRequest& request, const PlannerConfig& config, Answer& answer) {
+    if (const auto bad = check_settings(config)) return answer.refuse(*bad);
+    if (const auto bad = check_request(request)) return answer.refuse(*bad);
+    answer.reply.object_key =
+        as_stage("object_key", [&] { return object_key_of(request.object_O); });
+
+    // II-A: the object and its concavity.
+    const auto object = prepare_object(request.object_O, config, answer.log);
+    if (!object) return answer.refuse(object.error());
+    answer.reply.report.findings = object.value().findings;
+
+    Scene scene(request, object.value());
+    const auto found = find_grasps(request, scene, config, answer.log);
+    if (!found) return answer.refuse(found.error());
+    answer.conclude(found.value(), scene.X_FP);
+    if (found.value().stopped) return answer.stop(*found.value().stopped);
+    measure_tolerances(request, answer.reply.grasps, scene, config, answer.log);
+
+    if (request.options.want_suggestion || found.value().grasps.empty()) {
+        answer.reply.report.suggestion =
+            suggestion_for(request, found.value(), scene, config, answer.log);
+    }
+    return answer.finish();
+}
+
 }  // namespace
 
 std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O) {
     std::uint64_t hash = kFnvOffset;
     const auto add = [&](const auto& items) {
-        if (items.empty()) return;
         using Item = std::remove_cvref_t<decltype(items.front())>;
-        hash =
-            fnv1a({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)}, hash);
+        constexpr std::size_t kAtATime = 1 << 16;  // a few milliseconds
+        for (std::size_t first = 0; first < items.size(); first += kAtATime) {
+            stop_point();
+            const std::size_t count = std::min(kAtATime, items.size() - first);
+            const auto* bytes = reinterpret_cast<const char*>(items.data() + first);
+            hash = fnv1a({bytes, count * sizeof(Item)}, hash);
+        }
     };
     if (const auto* mesh = std::get_if<TriangleMesh>(&object_O)) {
         add(mesh->vertices);
@@ -162,30 +195,13 @@ double object_mass_kg(const PlanOptions& options, double volume_m3) {
 
 PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
                const StopQuery& stop_requested) {
+    const StopScope stoppable(stop_requested);
     Answer answer(request);
-    if (const auto bad = check_settings(config)) return answer.refuse(*bad);
-    if (const auto bad = check_request(request)) return answer.refuse(*bad);
-    answer.reply.object_key = object_key_of(request.object_O);
-
-    // II-A: the object and its concavity.
-    const auto object = prepare_object(request.object_O, config, answer.log);
-    if (!object) return answer.refuse(object.error());
-    answer.reply.report.findings = object.value().findings;
-
-    Scene scene(request, object.value());
-    auto found = find_grasps(request, scene, config, stop_requested, answer.log);
-    if (!found) return answer.refuse(found.error());
-    if (!found.value().stopped) {
-        measure_tolerances(request, found.value().grasps, scene, config, answer.log);
+    try {
+        return plan_to_the_end(request, config, answer);
+    } catch (const Stopped& stopped) {
+        return answer.stop(stopped);
     }
-    answer.conclude(found.value(), scene.X_FP);
-
-    const bool wanted = request.options.want_suggestion || found.value().grasps.empty();
-    if (wanted && !found.value().stopped) {
-        answer.reply.report.suggestion =
-            suggestion_for(request, found.value(), scene, config, stop_requested, answer.log);
-    }
-    return answer.finish();
 }
 
 }  // namespace graspd

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "graspd/base/stop.hpp"
 #include "graspd/mesh/principal_frame.hpp"
 
 namespace graspd::planner_detail {
@@ -106,7 +107,9 @@ Surroundings::Surroundings(const PlanRequest& request, const PreparedObject& obj
     bodies_.reserve(request.obstacles.size());
     for (const Obstacle& obstacle : request.obstacles) {
         Body body{transformed(X_WF * obstacle.X_FO, obstacle.mesh), nullptr};
-        body.tree = std::make_unique<TriangleBvh>(body.mesh, 1e-6 * mesh_diagonal_m(body.mesh));
+        body.tree = as_stage("base/triangle_bvh", [&] {
+            return std::make_unique<TriangleBvh>(body.mesh, 1e-6 * mesh_diagonal_m(body.mesh));
+        });
         bodies_.push_back(std::move(body));
     }
     world_.object = {&object.mesh_P, object.tree_P.get()};

@@ -61,15 +61,16 @@ void refine_grasps(std::vector<GradedGrasp>& grasps, const Judgement& judgement,
         rank_grasps(entries, judgement.config.search.refined, judgement.config.rank_grasps);
     if (!ranking) return;
     const std::vector<std::size_t>& chosen = ranking.value().order;
+    std::vector<GradedGrasp> moved;  // all of them or, when this is stopped, none is taken
+    for (const std::size_t i : chosen) moved.push_back(grasps[i]);
     std::vector<char> improved(chosen.size());
     log.run(kRefine, chosen.size(), [&] {
         for_blocks(chosen.size(), 1, [&](std::size_t first, std::size_t last) {
-            for (std::size_t k = first; k < last; ++k) {
-                improved[k] = refine(grasps[chosen[k]], judgement);
-            }
+            for (std::size_t k = first; k < last; ++k) improved[k] = refine(moved[k], judgement);
         });
         return 0;
     });
+    for (std::size_t k = 0; k < chosen.size(); ++k) grasps[chosen[k]] = std::move(moved[k]);
     log.out(kRefine, static_cast<std::uint64_t>(std::ranges::count(improved, 1)));
 }
 

@@ -117,13 +117,9 @@ void Round::try_batch(StageLog& log) {
 /// Runs rounds into one result and drops the one that is interrupted.
 class Rounds {
 public:
-    Rounds(const Judgement& judgement, const StopQuery& stop_requested, StageLog& log)
-        : judgement_(judgement), stop_requested_(stop_requested), log_(log) {}
+    Rounds(const Judgement& judgement, StageLog& log, SearchResult& result)
+        : judgement_(judgement), log_(log), result_(result) {}
 
-    bool stopped() {
-        result_.stopped = result_.stopped || (stop_requested_ && stop_requested_());
-        return result_.stopped;
-    }
     bool wanted(GraspSource source) const {
         const unsigned sources = judgement_.request.options.sources;
         return sources == 0 || (sources & source) != 0;
@@ -131,13 +127,11 @@ public:
     void run(std::vector<ClosingAxis> axes);
     /// Counts axes of a source that the request does not ask for.
     void leave_out(std::size_t axes) { result_.rejections.add("axis_source_unwanted", axes); }
-    SearchResult take() { return std::move(result_); }
 
 private:
     const Judgement& judgement_;
-    const StopQuery& stop_requested_;
     StageLog& log_;
-    SearchResult result_;
+    SearchResult& result_;
 };
 
 void Rounds::run(std::vector<ClosingAxis> axes) {
@@ -148,10 +142,7 @@ void Rounds::run(std::vector<ClosingAxis> axes) {
         log_.run(kOrder, found, [&] { return order_axes(std::move(axes), judgement_, unfit); });
     log_.out(kOrder, ordered.size());
     Round round(judgement_, std::move(ordered));
-    while (!round.done()) {
-        if (stopped()) return;
-        round.try_batch(log_);
-    }
+    while (!round.done()) round.try_batch(log_);
     std::ranges::move(round.grasps_, std::back_inserter(result_.grasps));
     result_.rejections.merge(unfit);
     result_.rejections.merge(round.rejections_);
@@ -169,37 +160,40 @@ std::vector<std::vector<ClosingAxis>> axes_of(const std::vector<Concavity>& conc
     return axes;
 }
 
-}  // namespace
-
-SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen,
-                           const StopQuery& stop_requested, StageLog& log) {
-    const PlannerConfig& config = judgement.config;
-    const Gripper& gripper = judgement.gripper;
-    const PreparedObject& object = judgement.object;
+/// Every round that the request wants.
+void search(Rounds& rounds, const Judgement& judgement, const SeenSurface& seen, StageLog& log) {
     const auto& [surface, concavities] = seen;
-    Rounds rounds(judgement, stop_requested, log);
-    if (rounds.wanted(kBoundary) && !rounds.stopped()) {
+    if (rounds.wanted(kBoundary)) {
         for (auto& axes : axes_of(concavities, surface, judgement, log)) {
-            if (rounds.stopped()) break;
             rounds.run(std::move(axes));
         }
     }
-    if ((rounds.wanted(kWall) || rounds.wanted(kWholeObject)) && !rounds.stopped()) {
-        const auto axes = opposite_axes(concavities, surface, object, gripper, config, log);
-        for (const GraspSource source : {kWall, kWholeObject}) {
-            if (rounds.stopped()) continue;
-            std::vector<ClosingAxis> of_source;
-            std::ranges::copy_if(axes, std::back_inserter(of_source),
-                                 [&](const ClosingAxis& a) { return a.source == source; });
-            if (rounds.wanted(source)) {
-                rounds.run(std::move(of_source));
-            } else {
-                rounds.leave_out(of_source.size());
-            }
+    if (!rounds.wanted(kWall) && !rounds.wanted(kWholeObject)) return;
+    const auto axes = opposite_axes(concavities, surface, judgement.object, judgement.gripper,
+                                    judgement.config, log);
+    for (const GraspSource source : {kWall, kWholeObject}) {
+        std::vector<ClosingAxis> of_source;
+        std::ranges::copy_if(axes, std::back_inserter(of_source),
+                             [&](const ClosingAxis& a) { return a.source == source; });
+        if (rounds.wanted(source)) {
+            rounds.run(std::move(of_source));
+        } else {
+            rounds.leave_out(of_source.size());
         }
     }
-    SearchResult result = rounds.take();
-    if (!result.stopped) refine_grasps(result.grasps, judgement, log);
+}
+
+}  // namespace
+
+SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen, StageLog& log) {
+    SearchResult result;
+    Rounds rounds(judgement, log, result);
+    try {
+        search(rounds, judgement, seen, log);
+        refine_grasps(result.grasps, judgement, log);
+    } catch (const Stopped& stopped) {
+        result.stopped = stopped;
+    }
     return result;
 }
 

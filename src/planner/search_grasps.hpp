@@ -1,10 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "evaluate_pose.hpp"
 #include "find_concavities.hpp"
-#include "graspd/planner/planner.hpp"
+#include "graspd/base/stop.hpp"
 
 namespace graspd::planner_detail {
 
@@ -12,14 +13,12 @@ namespace graspd::planner_detail {
 struct SearchResult {
     std::vector<GradedGrasp> grasps;  ///< in the order of the search
     Rejections rejections;
-    bool stopped = false;  ///< the caller wanted no more; the round under way was dropped
+    std::optional<Stopped> stopped;  ///< the caller wanted no more: the round under way was dropped
 };
 
 /// Sections II-B to II-F for one gripper: a round for each concavity, one across its walls, one
-/// across the whole object.
-/// @param seen            by a gripper with fingers of that size
-/// @param stop_requested  asked before each round and within; may be empty
-SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen,
-                           const StopQuery& stop_requested, StageLog& log);
+/// across the whole object; then the best are refined, or left as they are when that is stopped.
+/// @param seen  by a gripper with fingers of that size
+SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen, StageLog& log);
 
 }  // namespace graspd::planner_detail

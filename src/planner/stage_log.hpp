@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "graspd/base/parallel.hpp"
+#include "graspd/base/stop.hpp"
 #include "graspd/planner/plan_types.hpp"
 
 namespace graspd::planner_detail {
@@ -15,17 +16,11 @@ namespace graspd::planner_detail {
 /// What the stages did and how long they took, in the order of their first call.
 class StageLog {
 public:
-    /// Runs a stage and adds its wall time and its count of inputs.
+    /// Runs a stage and adds its wall time and its count of inputs, also when it is stopped.
     template <class Work>
     auto run(const char* name, std::uint64_t in, Work&& work) {
-        const auto start = std::chrono::steady_clock::now();
-        auto result = std::forward<Work>(work)();
-        const std::chrono::duration<double, std::milli> taken =
-            std::chrono::steady_clock::now() - start;
-        StageReport& stage = entry(name);
-        stage.ms += taken.count();
-        stage.in += in;
-        return result;
+        const Timing timing{*this, name, in};
+        return as_stage(name, std::forward<Work>(work));
     }
     /// Adds to a stage's counts, where the inputs are known only afterwards.
     void count(const char* name, std::uint64_t in, std::uint64_t out) {
@@ -51,6 +46,22 @@ public:
     std::vector<StageReport> take() { return std::move(stages_); }
 
 private:
+    /// Adds to a stage when it goes.
+    struct Timing {
+        StageLog& log;
+        const char* name;
+        std::uint64_t in;
+        std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+
+        ~Timing() {
+            const std::chrono::duration<double, std::milli> taken =
+                std::chrono::steady_clock::now() - start;
+            StageReport& stage = log.entry(name);
+            stage.ms += taken.count();
+            stage.in += in;
+        }
+    };
+
     StageReport& entry(const std::string& name) {
         const auto found = std::ranges::find(stages_, name, &StageReport::name);
         if (found != stages_.end()) return *found;

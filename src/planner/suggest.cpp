@@ -47,22 +47,18 @@ std::string values_text(const std::vector<Change>& changes) {
     return listed(values) + (changes.size() > 1 ? " together" : "");
 }
 
-/// Plans with changed limits and counts how often. Once it is stopped no more plans are made.
+/// Plans with changed limits and counts how often.
 class Trials {
 public:
     Trials(const PlanRequest& request, const Replan& replan) : request_(request), replan_(replan) {}
 
-    /// @return the grasps, best first; none also when stopped
+    /// @return the grasps, best first
     std::vector<Grasp> with(const std::vector<Change>& changes) {
-        if (stopped_) return {};
         PlanRequest changed = request_;
         for (const Change& change : changes) relax(changed, change.limit, change.value);
         ++plans_;
-        auto grasps = replan_(changed);
-        stopped_ = !grasps;
-        return grasps.value_or(std::vector<Grasp>{});
+        return replan_(changed);
     }
-    bool stopped() const { return stopped_; }
     std::uint64_t plans() const { return plans_; }
     const PlanRequest& request() const { return request_; }
 
@@ -70,7 +66,6 @@ private:
     const PlanRequest& request_;
     const Replan& replan_;
     std::uint64_t plans_ = 0;
-    bool stopped_ = false;
 };
 
 /// Changes that give a grasp.
@@ -232,7 +227,6 @@ Suggestion suggest(const Verdict& verdict, const SuggestConfig& config, const Re
                            ? what_gives_a_grasp(limits, config.bisections, trials)
                            : what_raises_the_score(limits, verdict.grasps.front().score,
                                                    config.least_gain, trials);
-    if (trials.stopped()) text.clear();
     return {std::move(text), trials.plans()};
 }
 

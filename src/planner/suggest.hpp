@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +12,8 @@
 namespace graspd::planner_detail {
 
 /// Plans a request with other limits, same object and surroundings.
-/// @return its grasps, best first, none when there is none; nothing when the caller wants no more
-using Replan = std::function<std::optional<std::vector<Grasp>>(const PlanRequest&)>;
+/// @return its grasps, best first, none when there is none
+using Replan = std::function<std::vector<Grasp>(const PlanRequest&)>;
 
 /// A plan that was made to its end.
 struct Verdict {
@@ -26,7 +25,7 @@ struct Verdict {
 
 /// One sentence, and what it cost.
 struct Suggestion {
-    std::string text;         ///< empty when stopped
+    std::string text;
     std::uint64_t plans = 0;  ///< how often it was planned again
 };
 

@@ -10,6 +10,7 @@
 #include "graspd/base/plane_points.hpp"
 #include "graspd/base/point_grid.hpp"
 #include "graspd/base/settings.hpp"
+#include "graspd/base/stop.hpp"
 
 namespace graspd {
 namespace {
@@ -62,6 +63,7 @@ std::vector<Indices> euclidean_clusters(std::span<const SurfaceSample> samples,
     const PointGrid grid(points, tolerance_m);
     DisjointSets sets(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) {
+        stop_point(i);
         grid.each_within(points[i], tolerance_m, [&](std::uint32_t other) {
             if (other < i) sets.unite(i, other);
             return true;
@@ -116,6 +118,7 @@ std::vector<Concavity> find_concavities(std::span<const SurfaceSample> samples,
     Indices enlarged = areas.enlarged;
     std::ranges::sort(enlarged);
     for (Concavity& concavity : concavities) {
+        stop_point();
         concavity.enlarged = surroundings(samples, concavity.salient, enlarged, spacing_m,
                                           config.enlargement_spacings * spacing_m * kTie);
     }

@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "graspd/base/stop.hpp"
 #include "support/shapes.hpp"
 
 namespace graspd {
@@ -136,6 +137,30 @@ TEST(OuterHull, NamesTheVerticesThatSpanIt) {
         points.push_back((on ? 1.0 : 0.7) * p.normalized());
     }
     EXPECT_EQ(hull_of(points).vertices, on_sphere);
+}
+
+// qhull is asked to stop through its reports; that they are read changes nothing.
+TEST(OuterHull, CanBeStoppedWithinAndGivesTheSameOtherwise) {
+    std::mt19937_64 random(6);
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 20000; ++i) {
+        points.push_back(
+            Vector3d(fraction(random), fraction(random), fraction(random)).normalized());
+    }
+    const OuterHull whole = hull_of(points);
+    std::size_t calls = 0, allowed = std::numeric_limits<std::size_t>::max();
+    const StopQuery query = [&] { return ++calls > allowed; };
+    const StopScope scope(query);
+    const OuterHull again = hull_of(points);
+    EXPECT_EQ(again.vertices, whole.vertices);
+    EXPECT_EQ(again.facets.size(), whole.facets.size());
+    const std::size_t all = calls;
+    EXPECT_GT(all, 50U);
+    for (allowed = 0; allowed < all; allowed += 1 + all / 20) {
+        calls = 0;
+        EXPECT_THROW((void)outer_hull(points), Stopped) << allowed;
+        EXPECT_LE(calls, allowed + 3) << allowed;  // a report has some lines
+    }
 }
 
 TEST(OuterHull, RefusesWhatHasNoVolume) {

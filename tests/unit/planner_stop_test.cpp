@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <limits>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "support/plan_checks.hpp"
@@ -17,14 +20,12 @@ namespace {
 
 using test::request_for;
 
-/// Says stop from the n-th call on, and counts.
+/// Says stop from the n-th call on, and counts. Asked by several threads.
 struct StopAfter {
     std::size_t calls_left;
-    std::size_t calls = 0;
-    bool operator()() {
-        ++calls;
-        return calls > calls_left;
-    }
+    std::atomic<std::size_t> calls = 0;
+    explicit StopAfter(std::size_t left) : calls_left(left) {}
+    bool operator()() { return ++calls > calls_left; }
 };
 
 TEST(PlanStops, AtOnceWithNothing) {
@@ -36,53 +37,84 @@ TEST(PlanStops, AtOnceWithNothing) {
     EXPECT_EQ(reply.strategy, "");
 }
 
-// The rounds are boundary, wall, whole object. Wherever it stops, the reply holds what the rounds
-// before would have given on their own; the later it stops, the more rounds they are.
+/// Every call of stop_point() is a place where a plan may end: visits some of them, near one
+/// another at first.
+template <class Visit>
+void at_some_places(std::size_t calls, Visit&& visit) {
+    for (std::size_t n = 0; n < calls; n += 1 + n / 8) visit(n);
+    visit(calls - 1);
+}
+
+// The rounds are boundary, wall, whole object, refinement. Wherever it stops, the reply holds what
+// the rounds before would have given on their own, and not less than an earlier stop.
 TEST(PlanStops, WithWhatTheCompletedRoundsGave) {
     PlanRequest request = request_for(test::box_hourglass({0.06, 0.048, 0.01}, 0.02, 0.03, 1000));
     request.options.max_grasps = 1000;  // all, so that every round shows
-    StopAfter never{std::numeric_limits<std::size_t>::max()};
+    StopAfter never(std::numeric_limits<std::size_t>::max());
     const PlanReply full = plan(request, {}, std::ref(never));
     ASSERT_EQ(full.status, PlanStatus::kOk);
     test::expect_identical(full, plan(request, {}));
-    ASSERT_GT(never.calls, 10U);
+    ASSERT_GT(never.calls, 100U);
 
     PlanRequest boundary = request, concavity = request;
     boundary.options.sources = kBoundary;
     concavity.options.sources = kBoundary | kWall;
     PlannerConfig unrefined;  // refinement is the last round
     unrefined.search.refined = 0;
-    const std::vector<PlanReply> rounds = {plan(boundary, unrefined), plan(concavity, unrefined)};
-    std::size_t stage = 0;
-    bool seen_none = false;
-    std::vector<bool> seen(2, false);
-    for (std::size_t n = 0; n < never.calls; n += 1 + n / 8) {
-        StopAfter stop{n};
+    const std::vector<PlanReply> rounds = {plan(boundary, unrefined), plan(concavity, unrefined),
+                                           plan(request, unrefined), plan(request, {})};
+    const auto round_of = [&](const PlanReply& reply) {
+        const auto same = [&](const PlanReply& other) {
+            return std::ranges::equal(other.grasps, reply.grasps, [](const auto& a, const auto& b) {
+                return a.X_FG.matrix() == b.X_FG.matrix() && a.score == b.score;
+            });
+        };
+        return static_cast<std::size_t>(std::ranges::find_if(rounds, same) - rounds.begin());
+    };
+    std::size_t last_round = 0, empty = 0;
+    std::set<std::size_t> seen;
+    at_some_places(never.calls, [&](std::size_t n) {
+        StopAfter stop(n);
         const PlanReply reply = plan(request, {}, std::ref(stop));
         EXPECT_EQ(reply.status, PlanStatus::kPartial) << n;
-        EXPECT_LE(stop.calls, n + 3) << n;  // it does not go on working for long
+        EXPECT_TRUE(reply.message.starts_with("stopped in ")) << reply.message;
+        EXPECT_LE(stop.calls, n + 64) << n;  // each thread ends at its next place
         if (reply.grasps.empty()) {
-            EXPECT_EQ(stage, 0U) << n;
-            seen_none = true;
-            continue;
+            ++empty;
+            EXPECT_TRUE(seen.empty()) << n;
+            return;
         }
-        const auto same = [&](const PlanReply& other) {
-            return other.grasps.size() == reply.grasps.size() &&
-                   std::ranges::equal(other.grasps, reply.grasps, [](const auto& a, const auto& b) {
-                       return a.X_FG.matrix() == b.X_FG.matrix() && a.score == b.score;
-                   });
-        };
-        const std::size_t now = same(rounds[0]) ? 0 : 1;
-        EXPECT_TRUE(same(rounds[now])) << n;
-        EXPECT_GE(now, stage) << n;
-        stage = now;
-        seen[now] = true;
-    }
-    EXPECT_TRUE(seen_none);
-    EXPECT_TRUE(seen[0]);
-    EXPECT_TRUE(seen[1]);
-    StopAfter last{never.calls};
+        const std::size_t round = round_of(reply);
+        EXPECT_LT(round, rounds.size()) << n << ": the grasps of no round";
+        EXPECT_GE(round, last_round) << n;
+        last_round = round;
+        seen.insert(round);
+    });
+    EXPECT_GT(empty, 0U);
+    EXPECT_GE(seen.size(), 2U);
+    StopAfter last(never.calls);
     EXPECT_EQ(plan(request, {}, std::ref(last)).status, PlanStatus::kOk);
+}
+
+// No stage is deaf: stopped at places that are spread over a whole plan, each stage that works on
+// all of a mesh is met.
+TEST(PlanStops, WithinEveryLongStage) {
+    const PlanRequest request = request_for(test::sphere(0.03, 60000));
+    StopAfter never(std::numeric_limits<std::size_t>::max());
+    ASSERT_EQ(plan(request, {}, std::ref(never)).status, PlanStatus::kOk);
+    std::set<std::string> met;
+    const std::size_t calls = never.calls;
+    for (std::size_t n = 0; n < calls; n += 1 + (n < calls / 8 ? n / 32 : calls / 40)) {
+        StopAfter stop(n);
+        const PlanReply reply = plan(request, {}, std::ref(stop));
+        const std::string& text = reply.message;
+        met.insert(text.substr(0, text.find(';')));
+    }
+    for (const char* stage :
+         {"mesh/condition_mesh", "mesh/principal_frame", "base/triangle_bvh",
+          "concavity/shortest_path_concavity", "mesh/sample_surface", "planner/order_axes"}) {
+        EXPECT_TRUE(met.contains(std::string("stopped in ") + stage)) << stage;
+    }
 }
 
 }  // namespace

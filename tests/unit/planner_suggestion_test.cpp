@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -208,37 +209,27 @@ TEST(Suggestion, NoneForWhatCannotBePlannedFor) {
     EXPECT_EQ(suggestion_of(stopped), "");
 }
 
-// Stopped while it plans again: the verdict stands, without a suggestion.
-TEST(Suggestion, StoppedMeanwhileTheVerdictStands) {
+// Stopped wherever: PARTIAL without a suggestion, never a NO_GRASP that another run would say more
+// about.
+TEST(Suggestion, StoppedMeanwhileThereIsNone) {
     PlanRequest request = request_for(test::wedge(0.05, 0.12, 0.11, 0.10, 1000));
     request.options.friction = 0.2;
-    std::size_t calls = 0, allowed = std::numeric_limits<std::size_t>::max();
+    std::atomic<std::size_t> calls = 0;
+    std::size_t allowed = std::numeric_limits<std::size_t>::max();
     const StopQuery stop = [&] { return ++calls > allowed; };
-    PlanReply full = plan(request, {}, stop);
+    const PlanReply full = plan(request, {}, stop);
     ASSERT_EQ(full.status, PlanStatus::kNoGrasp);
     ASSERT_NE(suggestion_of(full), "");
     const std::size_t all = calls;
-    std::size_t partial = 0, without = 0;
-    for (allowed = 0; allowed < all; allowed += 1 + allowed / 4) {
+    std::size_t in_suggest = 0;
+    for (allowed = 0; allowed < all; allowed += 1 + allowed / 2) {
         calls = 0;
-        PlanReply reply = plan(request, {}, stop);
+        const PlanReply reply = plan(request, {}, stop);
+        EXPECT_EQ(reply.status, PlanStatus::kPartial) << allowed;
         EXPECT_EQ(suggestion_of(reply), "") << allowed;
-        EXPECT_LE(calls, allowed + 3) << allowed;
-        if (reply.status == PlanStatus::kPartial) {
-            EXPECT_EQ(without, 0U) << "a later stop gave less";
-            ++partial;
-            continue;
-        }
-        ++without;
-        for (PlanReply* each : {&full, &reply}) {
-            each->report.suggestion.clear();
-            std::erase_if(each->report.stages,
-                          [](const StageReport& stage) { return stage.name == "planner/suggest"; });
-        }
-        test::expect_identical(reply, full);
+        in_suggest += reply.message.starts_with("stopped in planner/suggest") ? 1 : 0;
     }
-    EXPECT_GT(partial, 0U);
-    EXPECT_GT(without, 0U);
+    EXPECT_GT(in_suggest, 0U);
 }
 
 }  // namespace
