@@ -21,4 +21,10 @@ void keep_freed_memory([[maybe_unused]] std::size_t bytes) {
 #endif
 }
 
+void give_back_freed_memory() {
+#if defined(__GLIBC__)
+    malloc_trim(0);
+#endif
+}
+
 }  // namespace graspd

@@ -92,13 +92,13 @@ private:
         if (accept("sequence")) {
             expect("<");
             element(member);
-            if (accept(",")) number();
+            if (accept(",")) member.most = number();
             expect(">");
             member.sequence = true;
         } else {
             element(member);
         }
-        take();  // its name
+        member.name = take();
         if (accept("[")) {
             member.repeat = number();
             expect("]");
@@ -172,15 +172,22 @@ namespace {
 /// Walks over a payload; every step says whether the bytes were there.
 class Walker {
 public:
-    Walker(std::span<const std::uint8_t> body, bool little_endian)
-        : body_(body), little_endian_(little_endian) {}
+    Walker(std::span<const std::uint8_t> body, bool little_endian, const SequenceSeen& seen)
+        : body_(body), little_endian_(little_endian), seen_(seen) {}
 
-    bool walk(const CdrStruct& type) {
-        return std::ranges::all_of(type.members, [this](const CdrMember& m) { return walk(m); });
+    bool walk_sample(const CdrStruct& type) {
+        return std::ranges::all_of(type.members, [this](const CdrMember& member) {
+            outer_ = &member;
+            return walk(member);
+        });
     }
     std::size_t remaining() const { return body_.size() - at_; }
 
 private:
+    bool walk(const CdrStruct& type) {
+        return std::ranges::all_of(type.members, [this](const CdrMember& m) { return walk(m); });
+    }
+
     bool walk(const CdrMember& member) {
         using Kind = CdrMember::Kind;
         std::uint64_t count = member.repeat;
@@ -188,6 +195,7 @@ private:
             std::uint32_t length = 0;
             if (!read_count(length)) return false;
             count = length;
+            if (seen_) seen_(*outer_, member, count);
         }
         if (count == 0) return true;  // no padding before elements that are not there
         if (member.kind == Kind::kNumber) return skip(count, member.bytes);
@@ -244,6 +252,8 @@ private:
     std::span<const std::uint8_t> body_;
     std::size_t at_ = 0;
     bool little_endian_;
+    const SequenceSeen& seen_;
+    const CdrMember* outer_ = nullptr;  ///< member of the sample that the walk is in
 };
 
 }  // namespace
@@ -266,12 +276,13 @@ const CdrLayouts& wire_layouts() {
     return layouts;
 }
 
-bool is_well_formed(std::span<const std::uint8_t> payload, const CdrStruct& type) {
+bool is_well_formed(std::span<const std::uint8_t> payload, const CdrStruct& type,
+                    const SequenceSeen& seen) {
     constexpr std::size_t kHeader = 4;       // representation id, then options
     constexpr std::size_t kMostPadding = 3;  // RTPS pads a payload to 4 bytes
     if (payload.size() < kHeader || payload[0] != 0 || payload[1] > 1) return false;
-    Walker walker(payload.subspan(kHeader), payload[1] == 1);
-    return walker.walk(type) && walker.remaining() <= kMostPadding;
+    Walker walker(payload.subspan(kHeader), payload[1] == 1, seen);
+    return walker.walk_sample(type) && walker.remaining() <= kMostPadding;
 }
 
 }  // namespace graspd::dds

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -21,12 +22,14 @@ struct CdrStruct;
 
 /// One member of a struct.
 struct CdrMember {
+    std::string name;
     enum class Kind : std::uint8_t { kNumber, kBoolean, kString, kStruct };
     Kind kind = Kind::kNumber;
     std::size_t bytes = 0;              ///< [byte] of a number or boolean: 1, 2, 4 or 8
     const CdrStruct* nested = nullptr;  ///< of kStruct
     std::uint32_t repeat = 1;           ///< length of a fixed array
     bool sequence = false;              ///< a count of 4 bytes stands before the elements
+    std::uint32_t most = 0;             ///< bound of the sequence; 0: none
 };
 
 struct CdrStruct {
@@ -54,10 +57,16 @@ private:
 /// The layouts of idl/graspd.idl, parsed once. Thread-safe.
 const CdrLayouts& wire_layouts();
 
+/// Told of every sequence of a payload before its elements are walked. @param member  of the struct
+/// itself that the sequence lies in, or that it is
+using SequenceSeen =
+    std::function<void(const CdrMember& member, const CdrMember& sequence, std::uint64_t count)>;
+
 /// Whether a payload is plain CDR (encapsulation 0x0000 or 0x0001), holds the struct and nothing
 /// more than 3 bytes of padding after it, and every count in it fits into the bytes that follow.
 /// Numbers are not looked at, bounds of the IDL neither: those a client gets an answer about.
 /// Cost: linear in the number of strings and of structs with mixed members, not in the bytes.
-bool is_well_formed(std::span<const std::uint8_t> payload, const CdrStruct& type);
+bool is_well_formed(std::span<const std::uint8_t> payload, const CdrStruct& type,
+                    const SequenceSeen& seen = {});
 
 }  // namespace graspd::dds

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd::dds {
 namespace {
 
@@ -122,9 +124,15 @@ Eigen::Isometry3d read_pose(const geometry::Pose_& pose, const std::string& fiel
 TriangleMesh read_mesh(const shape_msgs::msg::dds_::Mesh_& mesh) {
     TriangleMesh out;
     out.vertices.reserve(mesh.vertices().size());
-    for (const auto& v : mesh.vertices()) out.vertices.emplace_back(v.x(), v.y(), v.z());
+    for (const auto& v : mesh.vertices()) {
+        stop_point(out.vertices.size());
+        out.vertices.emplace_back(v.x(), v.y(), v.z());
+    }
     out.faces.reserve(mesh.triangles().size());
-    for (const auto& triangle : mesh.triangles()) out.faces.push_back(triangle.vertex_indices());
+    for (const auto& triangle : mesh.triangles()) {
+        stop_point(out.faces.size());
+        out.faces.push_back(triangle.vertex_indices());
+    }
     return out;
 }
 

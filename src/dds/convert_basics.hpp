@@ -67,7 +67,7 @@ Eigen::Vector3d read_unit(const geometry_msgs::msg::dds_::Vector3_& vector,
 /// A pose; its quaternion's length must be 1 within 0.001, and is made 1 exactly.
 Eigen::Isometry3d read_pose(const geometry_msgs::msg::dds_::Pose_& pose, const std::string& field,
                             FirstError& errors);
-/// Every vertex and face as it stands: the planner judges indices and coordinates.
+/// Every vertex and face as it stands: the planner judges indices and coordinates. Throws Stopped.
 TriangleMesh read_mesh(const shape_msgs::msg::dds_::Mesh_& mesh);
 bool is_empty(const shape_msgs::msg::dds_::Mesh_& mesh);
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd::dds {
 namespace {
 
@@ -101,6 +103,7 @@ std::vector<Eigen::Vector3d> read_cloud(const PointCloud2_& cloud, const std::st
     for (std::size_t row = 0; row < cloud.height(); ++row) {
         const std::uint8_t* point = cloud.data().data() + row * cloud.row_step();
         for (std::size_t column = 0; column < cloud.width(); ++column) {
+            stop_point(points.size());
             Eigen::Vector3d& out = points.emplace_back();
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const std::uint8_t* at = point + layout[axis].offset;

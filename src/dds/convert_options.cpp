@@ -71,6 +71,13 @@ PlanOptions read_options(const wire::GraspRequest_& request, FirstError& errors)
     return read_option(request.options().front(), errors);
 }
 
+double asked_budget_s(const wire::GraspRequest_& request) {
+    const double fallback_s = PlanOptions{}.time_budget_s;
+    if (request.options().empty()) return fallback_s;
+    const double asked_s = request.options().front().time_budget();
+    return asked_s > 0.0 && asked_s <= kLongest_s ? asked_s : fallback_s;
+}
+
 wire::PlanOptions_ write_options(const PlanOptions& options) {
     wire::PlanOptions_ out;
     out.max_grasps(options.max_grasps);

@@ -11,4 +11,8 @@ PlanOptions read_options(const wire::GraspRequest_& request, FirstError& errors)
 
 wire::PlanOptions_ write_options(const PlanOptions& options);
 
+/// The time budget that a request asks for [s]; the default where it asks for none or for what
+/// read_options() refuses.
+double asked_budget_s(const wire::GraspRequest_& request);
+
 }  // namespace graspd::dds

@@ -5,19 +5,19 @@
 #include <cstring>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
 #include "cdr_layout.hpp"
-#include "graspd/base/fnv1a.hpp"
+#include "graspd/dds/dds_settings.hpp"
 
 namespace graspd::dds {
 
 /// What a guard lets through, and how much it refused. Shared with whoever reports the count.
 struct PayloadGuard {
     std::uint32_t max_payload_bytes = 256u << 20;  ///< [byte] with the encapsulation header
+    RequestLimits limits;                          ///< of requests
     std::atomic<std::uint64_t> rejected{0};        ///< samples that were refused
 };
 
@@ -28,8 +28,8 @@ struct PayloadGuard {
 /// walked first (cdr_layout.hpp); whatever still throws is caught. A refused sample is counted, and
 /// the middleware drops it.
 ///
-/// `Sample` is what createData() makes: the generated struct, or a struct that inherits from it. If
-/// it has a member payload_hash, that becomes the FNV-1a of the payload.
+/// `Sample` is what createData() makes: the generated struct, or a struct that inherits from it.
+/// One that has a member read(payload, guard) reads its payload itself.
 template <class Generated, class Sample = typename Generated::type>
 class GuardedType : public Generated {
 public:
@@ -60,18 +60,17 @@ public:
 private:
     bool accept(Payload* payload, void* data) {
         if (layout_ == nullptr || payload == nullptr || payload->data == nullptr) return false;
-        if (payload->length > guard_->max_payload_bytes) return false;
-        if (!is_well_formed({payload->data, payload->length}, *layout_)) return false;
+        const std::span<std::uint8_t> bytes{payload->data, payload->length};
+        auto* sample = static_cast<Sample*>(data);
         try {
-            auto* sample = static_cast<Sample*>(data);
-            if (!Generated::deserialize(payload, static_cast<typename Generated::type*>(sample))) {
-                return false;
+            if constexpr (requires { sample->read(bytes, *guard_); }) {
+                return sample->read(bytes, *guard_);
+            } else {
+                return bytes.size() <= guard_->max_payload_bytes &&
+                       is_well_formed(bytes, *layout_) &&
+                       Generated::deserialize(payload,
+                                              static_cast<typename Generated::type*>(sample));
             }
-            if constexpr (requires { sample->payload_hash; }) {
-                sample->payload_hash = fnv1a(std::string_view(
-                    reinterpret_cast<const char*>(payload->data), payload->length));
-            }
-            return true;
         } catch (...) {  // fastcdr's exceptions, bad_alloc: nothing may pass
             return false;
         }

@@ -11,6 +11,7 @@
 #include "convert_reply.hpp"
 #include "convert_state.hpp"
 #include "guarded_type.hpp"
+#include "guid_bytes.hpp"
 #include "participant.hpp"
 #include "received_request.hpp"
 #include "reply_writer.hpp"
@@ -32,14 +33,18 @@ using DiagnosticsType = GuardedType<diagnostic_msgs::msg::dds_::DiagnosticArray_
 constexpr const char* kServiceRequestType = "graspd_msgs::srv::dds_::PlanGrasps_Request_";
 constexpr const char* kServiceReplyType = "graspd_msgs::srv::dds_::PlanGrasps_Response_";
 constexpr std::chrono::milliseconds kCallerPatience{100};
+constexpr std::chrono::milliseconds kNoPatience{0};
 
 class DdsPlannerPort final : public PlannerPort {
 public:
-    DdsPlannerPort(const DdsSettings& settings, RequestHandler request, CancelHandler cancel)
+    DdsPlannerPort(const DdsSettings& settings, RequestHandler request, CancelHandler cancel,
+                   GoneHandler gone)
         : settings_(settings),
           handle_request_(std::move(request)),
-          handle_cancel_(std::move(cancel)) {
+          handle_cancel_(std::move(cancel)),
+          handle_gone_(std::move(gone)) {
         guard_->max_payload_bytes = settings.max_payload_bytes;
+        guard_->limits = settings.limits;
     }
     ~DdsPlannerPort() override { DdsPlannerPort::stop_listening(); }
 
@@ -81,7 +86,8 @@ public:
             const auto* request = dynamic_cast<const ReceivedRequest*>(reply.to.get());
             const auto& caller = reply.to->identity().writer;
             if (request != nullptr && request->call) {
-                service_writer_.meet(caller, kCallerPatience);
+                const bool is_there = service_listener_.knows(guid_of(caller));
+                service_writer_.meet(caller, is_there ? kCallerPatience : kNoPatience);
                 written = write_service_reply(*request->call, sample, service_writer_.writer());
             } else {
                 reply_writer_.meet(caller, {});  // somebody else may read what one asks for
@@ -159,7 +165,7 @@ private:
         fast::SampleInfo info;
         if (reader.take_next_sample(&payload, &info) != ReturnCode_t::RETCODE_OK) return false;
         if (!info.valid_data) return true;
-        if (auto request = read_service_call(std::move(payload), info)) {
+        if (auto request = read_service_call(std::move(payload), info, *guard_)) {
             handle_request_(std::move(request));
         } else {
             guard_->rejected.fetch_add(1, std::memory_order_relaxed);
@@ -196,11 +202,15 @@ private:
     DdsSettings settings_;
     const RequestHandler handle_request_;
     const CancelHandler handle_cancel_;
+    const GoneHandler handle_gone_;
     std::shared_ptr<PayloadGuard> guard_ = std::make_shared<PayloadGuard>();
     std::atomic<std::uint64_t> lost_{0};
     // Listeners outlive the participant, which removes the endpoints.
     TakingListener request_listener_{[this](auto& from) { return take_request(from); }};
-    TakingListener service_listener_{[this](auto& from) { return take_call(from); }};
+    TakingListener service_listener_{[this](auto& from) { return take_call(from); },
+                                     [this](const auto& writer) {
+                                         if (handle_gone_) handle_gone_(bytes_of(writer));
+                                     }};
     TakingListener cancel_listener_{[this](auto& from) { return take_cancel(from); }};
     ReplyWriter reply_writer_;
     ReplyWriter service_writer_;
@@ -214,10 +224,10 @@ private:
 }  // namespace dds
 
 Result<std::unique_ptr<PlannerPort>> PlannerPort::open(const DdsSettings& settings,
-                                                       RequestHandler handler,
-                                                       CancelHandler cancel) {
-    auto port =
-        std::make_unique<dds::DdsPlannerPort>(settings, std::move(handler), std::move(cancel));
+                                                       RequestHandler handler, CancelHandler cancel,
+                                                       GoneHandler gone) {
+    auto port = std::make_unique<dds::DdsPlannerPort>(settings, std::move(handler),
+                                                      std::move(cancel), std::move(gone));
     if (auto error = port->open()) return *std::move(error);
     return std::unique_ptr<PlannerPort>(std::move(port));
 }

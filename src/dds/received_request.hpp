@@ -3,19 +3,28 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 
 #include "cdr_bytes.hpp"
+#include "convert_options.hpp"
 #include "convert_request.hpp"
 #include "graspd/dds/planner_port.hpp"
 
 namespace graspd::dds {
 
-/// A request with the hash of its payload, which the guard takes.
+/// A request with what the guard noted while it read it.
 struct ReceivedSample : wire::GraspRequest_ {
+    std::chrono::steady_clock::time_point received;  ///< before it was read
     std::uint64_t payload_hash = 0;
+    RequestSize size;
+    std::optional<PlanError> refused;  ///< over a limit: nothing but its names was read then
+
+    /// Counts, compares with the limits, then reads. @param payload  with its encapsulation header
+    /// @return false for a malformed payload, and for one over a limit whose names cannot be read
+    bool read(std::span<std::uint8_t> payload, const PayloadGuard& guard);
 };
 
 /// How the answer to a service call finds its caller.
@@ -36,16 +45,19 @@ public:
     void complete(const eprosima::fastdds::dds::SampleInfo& info);
 
     const RequestIdentity& identity() const override { return identity_; }
-    std::chrono::steady_clock::time_point received() const override { return received_; }
+    std::chrono::steady_clock::time_point received() const override { return sample.received; }
     const std::string& frame_id() const override { return sample.header().frame_id(); }
     const std::string& object_key() const override { return sample.object_key(); }
     Result<PlanRequest> convert(std::span<const Gripper> known) const override {
+        if (sample.refused) return *sample.refused;
         return read_request(sample, known);
     }
+    double time_budget_s() const override { return asked_budget_s(sample); }
+    RequestSize size() const override { return sample.size; }
+    bool is_call() const override { return call.has_value(); }
 
 private:
     RequestIdentity identity_;
-    std::chrono::steady_clock::time_point received_;
 };
 
 /// Writes the reply to a service call in the way that its caller understands.
@@ -59,6 +71,7 @@ bool write_service_reply(const ServiceCall& call, const wire::RankedGrasps_& rep
 /// apart.
 /// @return null for a malformed payload
 std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
-                                                   const eprosima::fastdds::dds::SampleInfo& info);
+                                                   const eprosima::fastdds::dds::SampleInfo& info,
+                                                   const PayloadGuard& guard);
 
 }  // namespace graspd::dds

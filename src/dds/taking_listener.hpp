@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -18,7 +19,30 @@ public:
     /// Takes one sample and hands it on. @return false when there is none
     using TakeOne = std::function<bool(eprosima::fastdds::dds::DataReader&)>;
 
-    explicit TakingListener(TakeOne take_one) : take_one_(std::move(take_one)) {}
+    /// Told of the GUID of a writer that is matched no longer.
+    using WriterGone = std::function<void(const eprosima::fastrtps::rtps::GUID_t&)>;
+
+    explicit TakingListener(TakeOne take_one, WriterGone writer_gone = {})
+        : take_one_(std::move(take_one)), writer_gone_(std::move(writer_gone)) {}
+
+    void on_subscription_matched(
+        eprosima::fastdds::dds::DataReader*,
+        const eprosima::fastdds::dds::SubscriptionMatchedStatus& status) override {
+        if (!enter()) return;
+        try {
+            eprosima::fastrtps::rtps::GUID_t guid;
+            eprosima::fastrtps::rtps::iHandle2GUID(guid, status.last_publication_handle);
+            const bool is_gone = status.current_count_change < 0;
+            {
+                const std::lock_guard lock(mutex_);
+                if (is_gone) writers_.erase(guid);
+                if (!is_gone) writers_.insert(guid);
+            }
+            if (is_gone && writer_gone_) writer_gone_(guid);
+        } catch (...) {  // out of memory: its calls are answered to nobody
+        }
+        leave();
+    }
 
     void on_data_available(eprosima::fastdds::dds::DataReader* reader) override {
         if (!enter()) return;
@@ -28,6 +52,12 @@ public:
         } catch (...) {  // out of memory: what was not taken stays with the middleware
         }
         leave();
+    }
+
+    /// Whether the writer is matched still.
+    bool knows(const eprosima::fastrtps::rtps::GUID_t& writer) {
+        const std::lock_guard lock(mutex_);
+        return writers_.contains(writer);
     }
 
     /// Returns once no call is under way.
@@ -54,7 +84,9 @@ private:
     std::condition_variable left_;
     std::atomic<bool> stopped_{false};
     int calls_ = 0;
+    std::set<eprosima::fastrtps::rtps::GUID_t> writers_;  ///< matched
     TakeOne take_one_;
+    WriterGone writer_gone_;
 };
 
 }  // namespace graspd::dds

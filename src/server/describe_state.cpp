@@ -19,6 +19,7 @@ PlannerState describe_state(const ServiceCounters& counters, const ServerConfig&
     state.requests = counters.received;
     state.replies = counters.answers;
     state.lost_replies = counters.lost;
+    state.abandoned_plans = static_cast<std::uint32_t>(counters.abandoned_plans);
     for (const Gripper& gripper : grippers) state.grippers.push_back(gripper.name);
     return state;
 }

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -18,6 +19,8 @@
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/config/version.hpp"
 #include "graspd/config/wire_names.hpp"
+#include "idle_watch.hpp"
+#include "memory_fence.hpp"
 #include "planner_service.hpp"
 #include "profile_interfaces.hpp"
 #include "request_line.hpp"
@@ -74,6 +77,9 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     dds.version = version();
     dds.config_hash = config_hash(config.planner);
     dds.max_payload_bytes = config.server.max_payload_bytes;
+    dds.limits = {config.planner.condition_mesh.max_vertices,
+                  config.planner.condition_mesh.max_faces,
+                  config.planner.triangulate_cloud.limit_points, config.server.max_obstacle_faces};
     return Setup{config, std::move(dds), network.value().why, std::move(grippers).value()};
 }
 
@@ -107,6 +113,10 @@ void log_cancel(const CancelOrder& order, std::size_t cancelled) {
                  log_value(order.client_id), cancelled);
 }
 
+void log_dropped(std::size_t calls) {
+    if (calls > 0) spdlog::info("event=caller_gone dropped={}", calls);
+}
+
 void log_received(const RequestIdentity& identity) {
     if (!spdlog::should_log(spdlog::level::debug)) return;
     spdlog::debug("event=received id={} client={}", log_value(identity.request_id),
@@ -125,11 +135,11 @@ void log_end(const ServiceCounters& counters, const PlannerPort& port) {
     };
     spdlog::info(
         "event=stopped received={} ok={} no_grasp={} partial={} overloaded={} cancelled={} "
-        "internal_error={} repeated={} lost={} rejected_payloads={}",
+        "internal_error={} repeated={} lost={} abandoned_plans={} dropped={} rejected_payloads={}",
         counters.received, count(PlanStatus::kOk), count(PlanStatus::kNoGrasp),
         count(PlanStatus::kPartial), count(PlanStatus::kOverloaded), count(PlanStatus::kCancelled),
         count(PlanStatus::kInternalError), counters.repeated, counters.lost,
-        port.rejected_payloads());
+        counters.abandoned_plans, counters.dropped, port.rejected_payloads());
 }
 
 int fail(const PlanError& error) {
@@ -137,9 +147,18 @@ int fail(const PlanError& error) {
     return error.code == PlanErrorCode::kInternal ? kExitInternal : kExitUsage;
 }
 
-/// Serves until a signal comes. @return the exit code
+/// Wakes serve() as a signal from outside would, for a process that should not go on.
+void ask_for_the_end(std::atomic<bool>& is_worn_out, std::uint64_t abandoned) {
+    spdlog::error("event=exhausted abandoned_plans={} what=\"ends with 1, to be started anew\"",
+                  abandoned);
+    is_worn_out = true;
+    ::kill(::getpid(), SIGTERM);
+}
+
+/// Serves until a signal comes, or too many plans did not stop. @return the exit code
 int serve(const Setup& setup, const sigset_t& signals) {
     std::unique_ptr<PlannerPort> port;
+    std::atomic<bool> is_worn_out{false};
     PlannerService service(
         setup.config.server,
         {setup.grippers,
@@ -147,14 +166,16 @@ int serve(const Setup& setup, const sigset_t& signals) {
              spdlog::debug("event=planning id={}", log_value(request.request_id));
              return plan(request, setup.config.planner, stop_requested);
          },
-         [&](const OutgoingReply& reply) { return port->write(reply); }, log_answer});
+         [&](const OutgoingReply& reply) { return port->write(reply); }, log_answer,
+         [&] { ask_for_the_end(is_worn_out, setup.config.server.abandoned_plans); }});
     auto opened = PlannerPort::open(
         setup.dds,
         [&](auto request) {
             log_received(request->identity());
             service.handle(std::move(request));
         },
-        [&](const CancelOrder& order) { log_cancel(order, service.cancel(order)); });
+        [&](const CancelOrder& order) { log_cancel(order, service.cancel(order)); },
+        [&](const auto& writer) { log_dropped(service.drop(writer)); });
     if (!opened.ok()) return fail(opened.error());
     port = std::move(opened).value();
     service.start();
@@ -162,7 +183,14 @@ int serve(const Setup& setup, const sigset_t& signals) {
         port->write_state(
             describe_state(service.counters(), setup.config.server, setup.grippers, stopping));
     };
-    Beat beat(kStatusPeriod, [&] { tell(false); });
+    IdleWatch idle(std::chrono::milliseconds(setup.config.server.idle_trim_ms));
+    Beat beat(kStatusPeriod, [&] {
+        tell(false);
+        const ServiceCounters now = service.counters();
+        if (idle.is_due(now.received, now.open, std::chrono::steady_clock::now())) {
+            give_back_freed_memory();
+        }
+    });
     log_ready(setup);
 
     int signal = 0;
@@ -175,8 +203,9 @@ int serve(const Setup& setup, const sigset_t& signals) {
     const bool confirmed = port->wait_acknowledged(kAcknowledgeWait);
     if (!confirmed) spdlog::warn("event=unconfirmed what=\"some replies were not acknowledged\"");
     log_end(service.counters(), *port);
-    if (!ended) std::_Exit(0);  // a planner that does not stop must not keep the process
-    return 0;
+    const int code = is_worn_out ? kExitInternal : 0;
+    if (!ended) std::_Exit(code);  // a planner that does not stop must not keep the process
+    return code;
 }
 
 int run(const DaemonArguments& arguments, const sigset_t& signals) {
@@ -189,6 +218,11 @@ int run(const DaemonArguments& arguments, const sigset_t& signals) {
     const auto setup = read_setup(arguments, config.value());
     if (!setup.ok()) return fail(setup.error());
     open_log(arguments.log_level);
+    const std::uint64_t fence = setup.value().config.server.max_address_space_bytes;
+    if (!fence_memory(fence)) {
+        return fail({PlanErrorCode::kInvalidInput,
+                     "server.max_address_space_bytes = " + std::to_string(fence) + " is refused"});
+    }
     return serve(setup.value(), signals);
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 
+#include "graspd/base/stop.hpp"
 #include "make_reply.hpp"
 
 namespace graspd::server {
@@ -22,6 +24,9 @@ ReplyCacheLimits cache_limits(const ServerConfig& config) {
 PlannerService::PlannerService(const ServerConfig& config, ServiceParts parts)
     : parts_(std::move(parts)),
       worker_count_(config.workers),
+      most_abandoned_(config.abandoned_plans),
+      abandon_after_(config.abandon_after_ms),
+      max_memory_bytes_(config.max_memory_bytes),
       queue_(config.queue_capacity),
       outbox_(std::numeric_limits<std::size_t>::max()),
       objects_(config.object_cache_bytes),
@@ -29,14 +34,17 @@ PlannerService::PlannerService(const ServerConfig& config, ServiceParts parts)
 
 PlannerService::~PlannerService() {
     stop(std::chrono::seconds(1));
+    alarms_.stop();
+    for (const auto& worker : workers_) {  // while all that they use is there
+        if (worker->thread.joinable()) worker->thread.join();
+    }
 }
 
 void PlannerService::start() {
     const std::scoped_lock lock(mutex_);
-    running_ = worker_count_;
     writing_ = true;
-    for (std::uint32_t i = 0; i < worker_count_; ++i) threads_.emplace_back([this] { work(); });
-    threads_.emplace_back([this] { write_replies(); });
+    writer_ = std::jthread([this] { write_replies(); });
+    for (std::uint32_t i = 0; i < worker_count_; ++i) hire_locked();
 }
 
 void PlannerService::handle(std::unique_ptr<IncomingRequest> request) noexcept {
@@ -62,7 +70,11 @@ void PlannerService::receive(const RequestPtr& request) {
         case Admission::kClash: return answer(id_clash(*request));
         case Admission::kPlan: break;
     }
-    open_.emplace(request, std::make_shared<std::atomic<bool>>(false));
+    const auto alarm = alarms_.set(deadline_of(*request), [this, request] { expire(request); });
+    open_.emplace(request, Open{std::make_shared<std::atomic<bool>>(false), alarm});
+    if (const auto needed = needed_bytes(request->size()); needed > max_memory_bytes_) {
+        return finish_locked(request, too_large(*request, needed, max_memory_bytes_), {});
+    }
     RequestPtr item = request;
     if (queue_.try_push(item)) return;
     const bool stopping = stop_.stop_requested();
@@ -70,50 +82,71 @@ void PlannerService::receive(const RequestPtr& request) {
 }
 
 std::size_t PlannerService::cancel(const CancelOrder& order) {
+    return cancel_those([&](const IncomingRequest& request) {
+        const RequestIdentity& identity = request.identity();
+        const bool every = order.request_id.empty();
+        return identity.client_id == order.client_id &&
+               (every || identity.request_id == order.request_id);
+    });
+}
+
+std::size_t PlannerService::drop(const std::array<std::uint8_t, 16>& writer) {
+    const std::size_t count = cancel_those([&](const IncomingRequest& request) {
+        return request.is_call() && request.identity().writer == writer;
+    });
+    const std::scoped_lock lock(mutex_);
+    counters_.dropped += count;
+    return count;
+}
+
+/// Answers CANCELLED to the chosen of the open requests, and tells their planners to stop.
+template <class Chosen>
+std::size_t PlannerService::cancel_those(Chosen&& chosen) {
     const std::scoped_lock lock(mutex_);
     std::vector<RequestPtr> named;
-    for (const auto& [request, dropped] : open_) {
-        const RequestIdentity& identity = request->identity();
-        const bool every = order.request_id.empty();
-        if (identity.client_id != order.client_id) continue;
-        if (every || identity.request_id == order.request_id) named.push_back(request);
+    for (const auto& [request, open] : open_) {
+        if (chosen(*request)) named.push_back(request);
     }
     for (const RequestPtr& request : named) {
-        *open_.at(request) = true;
+        *open_.at(request).dropped = true;
         queue_.remove(request);
         finish_locked(request, cancelled(*request), {});
     }
     return named.size();
 }
 
-/// What tells the request's planner to stop; null when the request has been answered meanwhile.
-PlannerService::DropFlag PlannerService::begin(const RequestPtr& request) {
-    const std::scoped_lock lock(mutex_);
-    const auto at = open_.find(request);
-    if (at == open_.end()) return nullptr;
-    ++counters_.busy;
-    return at->second;
-}
-
-void PlannerService::work() {
-    while (const auto request = queue_.pop()) {
-        const DropFlag dropped = begin(*request);
+void PlannerService::work(Worker& worker) {
+    std::shared_ptr<Worker> self = worker.shared_from_this();
+    bool goes_on = true;
+    while (goes_on) {
+        const auto request = queue_.pop();
+        if (!request) break;
+        const DropFlag dropped = begin(*request, self);
         if (dropped == nullptr) continue;
         Work done;
         const PlanReply reply = answer(**request, dropped, done);
-        const std::scoped_lock lock(mutex_);
-        --counters_.busy;
-        finish_locked(*request, reply, done);
+        goes_on = end(self, reply, done);
     }
+    self.reset();  // who destroys a worker waits for its thread
     const std::scoped_lock lock(mutex_);
     --running_;
+    worker.ended = true;
     changed_.notify_all();
 }
 
 PlanReply PlannerService::answer(const IncomingRequest& request, const DropFlag& dropped,
                                  Work& work) {
+    const auto deadline = deadline_of(request);
+    const StopQuery stop_requested = [&] {
+        return stop_.stop_requested() || *dropped || Clock::now() >= deadline;
+    };
+    const StopScope stoppable(stop_requested);
     try {
-        return process(request, dropped, work);
+        return process(request, stop_requested, work);
+    } catch (const Stopped&) {
+        return stop_.stop_requested() ? stopped(request) : budget_spent(request);
+    } catch (const std::bad_alloc&) {
+        return internal_error(request, "out of memory (std::bad_alloc)");
     } catch (const std::exception& error) {
         return internal_error(request, error.what());
     } catch (...) {
@@ -122,7 +155,7 @@ PlanReply PlannerService::answer(const IncomingRequest& request, const DropFlag&
 }
 
 /// Converts and plans one request.
-PlanReply PlannerService::process(const IncomingRequest& request, const DropFlag& dropped,
+PlanReply PlannerService::process(const IncomingRequest& request, const StopQuery& stop_requested,
                                   Work& work) {
     work.queue_ms = ms_since(request.received());
     if (stop_.stop_requested()) return stopped(request);
@@ -134,7 +167,7 @@ PlanReply PlannerService::process(const IncomingRequest& request, const DropFlag
     const std::string& key = request.object_key();
     if (!key.empty() && !fill_in_object(key, problem)) return unknown_object(request);
     work.points = point_count(problem.object_O);
-    return plan_request(request, std::move(problem), dropped, work);
+    return plan_request(request, std::move(problem), stop_requested, work);
 }
 
 /// Puts the object of an earlier request into this one.
@@ -145,16 +178,18 @@ bool PlannerService::fill_in_object(const std::string& key, PlanRequest& problem
 }
 
 PlanReply PlannerService::plan_request(const IncomingRequest& request, PlanRequest problem,
-                                       const DropFlag& dropped, Work& work) {
-    const auto deadline = deadline_of(request, problem.options);
-    if (Clock::now() >= deadline) return budget_spent(request, problem.options);
+                                       const StopQuery& stop_requested, Work& work) {
+    if (Clock::now() >= deadline_of(request)) return budget_spent(request);
     const auto start = Clock::now();
-    PlanReply reply = parts_.plan(
-        problem, [&] { return stop_.stop_requested() || *dropped || Clock::now() >= deadline; });
+    PlanReply reply = parts_.plan(problem, stop_requested);
     work.plan_ms = ms_since(start);
     if (!reply.object_key.empty()) objects_.put(reply.object_key, std::move(problem.object_O));
-    const bool empty = reply.status == PlanStatus::kPartial && reply.grasps.empty();
-    return empty && stop_.stop_requested() ? stopped(request) : reply;
+    if (reply.status != PlanStatus::kPartial) return reply;
+    if (reply.grasps.empty() && stop_.stop_requested()) return stopped(request);
+    if (Clock::now() >= deadline_of(request)) {
+        reply.message = budget_text(request) + " is over: " + reply.message;
+    }
+    return reply;
 }
 
 void PlannerService::finish(const RequestPtr& request, const PlanReply& reply, const Work& work) {
@@ -165,7 +200,9 @@ void PlannerService::finish(const RequestPtr& request, const PlanReply& reply, c
 /// Answers a request and the retries that wait for it, unless stop() was faster.
 void PlannerService::finish_locked(const RequestPtr& request, const PlanReply& reply,
                                    const Work& work) {
-    if (!open_.contains(request)) return;
+    const auto at = open_.find(request);
+    if (at == open_.end()) return;
+    if (!at->second.begun) alarms_.forget(at->second.alarm);
     const auto answered = cache_.complete(request, reply);
     counters_.repeated += answered.size() - 1;
     for (const auto& [to, attempt] : answered) send_locked({to, attempt, reply}, work);

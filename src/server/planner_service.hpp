@@ -12,6 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "alarm_clock.hpp"
 #include "bounded_queue.hpp"
 #include "graspd/dds/planner_port.hpp"
 #include "graspd/planner/planner.hpp"
@@ -44,6 +45,8 @@ struct ServiceParts {
     std::function<PlanReply(const PlanRequest&, const StopQuery&)> plan;  ///< on many threads
     std::function<bool(const OutgoingReply&)> write;  ///< on one thread; false: lost
     std::function<void(const Answer&)> log;           ///< likewise, after the write; may be empty
+    /// Called once, on any thread, when as many plans were abandoned as are allowed; may be empty.
+    std::function<void()> exhausted = {};
 };
 
 /// A snapshot of what the service has done and has to do.
@@ -52,6 +55,8 @@ struct ServiceCounters {
     std::array<std::uint64_t, 9> answers{};  ///< by PlanStatus
     std::uint64_t repeated = 0;              ///< answers that came from the reply cache
     std::uint64_t lost = 0;                  ///< answers that could not be written
+    std::uint64_t abandoned_plans = 0;       ///< whose planner did not stop long after its budget
+    std::uint64_t dropped = 0;               ///< service calls whose caller had gone
     std::size_t queued = 0;                  ///< waiting for a worker
     std::size_t open = 0;                    ///< waiting or being planned
     std::size_t busy = 0;                    ///< workers that plan or convert
@@ -66,7 +71,8 @@ struct ServiceCounters {
 ///
 /// A request that finds the queue full is answered OVERLOADED at once; a retry gets the reply that
 /// its first sending got; an exception becomes INTERNAL_ERROR. A request's time budget counts from
-/// receipt. A cancelled request is answered CANCELLED at once, and its planner told to stop.
+/// receipt, and its answer comes within 50 ms of it, whatever the planner does (overdue_work.cpp).
+/// A cancelled request is answered CANCELLED at once, and its planner told to stop.
 /// Replies do not depend on the number of workers.
 class PlannerService {
 public:
@@ -86,6 +92,11 @@ public:
     /// @return how many there were
     std::size_t cancel(const CancelOrder& order);
 
+    /// Answers CANCELLED to every open service call of a writer that has gone: nobody but its
+    /// caller can read the answer. A request by the topic is planned all the same, for any reader
+    /// may wait for its reply. Any thread. @return how many there were
+    std::size_t drop(const std::array<std::uint8_t, 16>& writer);
+
     /// Takes no more requests: those that wait are answered CANCELLED, those being planned are
     /// told to stop and answered. One that is not ready after `grace` is answered CANCELLED without
     /// its planner; replies that are not written after twice `grace` are lost.
@@ -100,13 +111,37 @@ private:
     /// Told to the planner of one request alone.
     using DropFlag = std::shared_ptr<std::atomic<bool>>;
 
-    void work();
+    /// Taken in, not answered yet.
+    struct Open {
+        DropFlag dropped;
+        AlarmClock::Id alarm;  ///< until a worker begins with it
+        bool begun = false;
+    };
+    /// A thread that plans.
+    struct Worker : std::enable_shared_from_this<Worker> {
+        RequestPtr job;         ///< null: it waits for one. Written by its own thread alone
+        AlarmClock::Id alarm;   ///< of the job
+        bool replaced = false;  ///< another one took its place: it ends after its job
+        bool ended = false;
+        std::jthread thread;
+    };
+
+    void work(Worker& worker);
     void write_replies();
-    DropFlag begin(const RequestPtr& request);
+    void hire_locked();
+    DropFlag begin(const RequestPtr& request, const std::shared_ptr<Worker>& worker);
+    bool end(const std::shared_ptr<Worker>& worker, const PlanReply& reply,
+             const Work& work) noexcept;
+    void expire(const RequestPtr& request) noexcept;
+    void overrun(const RequestPtr& request, const std::shared_ptr<Worker>& worker) noexcept;
+    void abandon(const RequestPtr& request, const std::shared_ptr<Worker>& worker) noexcept;
+    void lose(const RequestPtr& request) noexcept;
+    template <class Chosen>
+    std::size_t cancel_those(Chosen&& chosen);
     PlanReply answer(const IncomingRequest& request, const DropFlag& dropped, Work& work);
-    PlanReply process(const IncomingRequest& request, const DropFlag& dropped, Work& work);
+    PlanReply process(const IncomingRequest& request, const StopQuery& stop_requested, Work& work);
     PlanReply plan_request(const IncomingRequest& request, PlanRequest problem,
-                           const DropFlag& dropped, Work& work);
+                           const StopQuery& stop_requested, Work& work);
     bool fill_in_object(const std::string& key, PlanRequest& problem);
     bool write(const OutgoingReply& reply) const noexcept;
     void receive(const RequestPtr& request);
@@ -116,6 +151,9 @@ private:
 
     const ServiceParts parts_;
     const std::uint32_t worker_count_;
+    const std::uint32_t most_abandoned_;
+    const std::chrono::milliseconds abandon_after_;
+    const std::uint64_t max_memory_bytes_;
     BoundedQueue<RequestPtr> queue_;
     BoundedQueue<Answer> outbox_;
     ObjectStore objects_;
@@ -124,13 +162,15 @@ private:
     mutable std::mutex mutex_;  ///< guards what follows
     std::condition_variable changed_;
     ReplyCache cache_;
-    std::unordered_map<RequestPtr, DropFlag> open_;  ///< taken in for planning, not answered yet
+    std::unordered_map<RequestPtr, Open> open_;
     LatencyWindow latencies_;
     ServiceCounters counters_;
-    std::size_t running_ = 0;  ///< threads that have not ended
+    std::size_t running_ = 0;  ///< workers that have not ended
     bool writing_ = false;     ///< the writer thread has not ended
 
-    std::vector<std::jthread> threads_;
+    AlarmClock alarms_;
+    std::vector<std::shared_ptr<Worker>> workers_;
+    std::jthread writer_;
 };
 
 }  // namespace graspd::server

@@ -16,7 +16,13 @@ struct ServerConfig {
     std::uint32_t reply_cache_entries = 1024;      ///< replies kept for retries
     std::uint64_t reply_cache_bytes = 64u << 20;   ///< [bytes] that those may take
     std::uint64_t object_cache_bytes = 256 << 20;  ///< [bytes] of objects kept under their keys
-    std::uint32_t max_payload_bytes = 256u << 20;  ///< [bytes] a larger request is rejected
+    std::uint32_t max_payload_bytes = 256u << 20;  ///< [bytes] a larger request is refused
+    std::uint32_t max_obstacle_faces = 1000000;    ///< of all obstacles of a request together
+    std::uint64_t max_memory_bytes = std::uint64_t{4} << 30;  ///< [bytes] for planning a request
+    std::uint64_t max_address_space_bytes = 0;  ///< [bytes] of the process; 0: no limit
+    std::uint32_t abandoned_plans = 2;          ///< after so many the process ends; 0: never
+    std::uint32_t abandon_after_ms = 1000;      ///< [ms] beyond its budget: a plan is lost
+    std::uint32_t idle_trim_ms = 5000;  ///< [ms] idle: freed memory goes to the system; 0: never
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
@@ -27,6 +33,13 @@ struct ServerConfig {
         visit("reply_cache_bytes", self.reply_cache_bytes, std::uint64_t{1} << 16, kTerabyte);
         visit("object_cache_bytes", self.object_cache_bytes, std::uint64_t{0}, kTerabyte);
         visit("max_payload_bytes", self.max_payload_bytes, 1024u, 2147483647u);
+        visit("max_obstacle_faces", self.max_obstacle_faces, 0u, 100000000u);
+        visit("max_memory_bytes", self.max_memory_bytes, std::uint64_t{1} << 20, kTerabyte);
+        visit("max_address_space_bytes", self.max_address_space_bytes, std::uint64_t{0},
+              std::uint64_t{1} << 46);
+        visit("abandoned_plans", self.abandoned_plans, 0u, 1000u);
+        visit("abandon_after_ms", self.abandon_after_ms, 1u, 3600000u);
+        visit("idle_trim_ms", self.idle_trim_ms, 0u, 3600000u);
     }
 };
 

@@ -93,7 +93,8 @@ TEST(MalformedPayloads, AreDroppedWhileGoodRequestsGoOn) {
     EXPECT_EQ(planner.wait_for(good + 1).size(), good + 1);
 }
 
-TEST(MalformedPayloads, PayloadAboveTheCapIsDropped) {
+// It is not read, but its sender can be told.
+TEST(MalformedPayloads, PayloadAboveTheCapIsRefusedByName) {
     DdsSettings settings = loopback_settings();
     const Bytes good = good_payload();
     settings.max_payload_bytes = static_cast<std::uint32_t>(good.size()) + 1000;
@@ -104,8 +105,14 @@ TEST(MalformedPayloads, PayloadAboveTheCapIsDropped) {
     sample.mesh().vertices().resize(1000);
     ASSERT_TRUE(raw.write(payload_of(sample)));
     ASSERT_TRUE(raw.write(good));
-    ASSERT_EQ(planner.wait_for(1).size(), 1u);
-    EXPECT_EQ(planner.port().rejected_payloads(), 1u);
+    const auto requests = planner.wait_for(2);
+    ASSERT_EQ(requests.size(), 2u);
+    EXPECT_EQ(planner.port().rejected_payloads(), 0u);
+    EXPECT_EQ(requests[0]->identity().client_id, "raw");
+    const auto refused = requests[0]->convert({});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().detail.find("server.max_payload_bytes"), std::string::npos);
+    EXPECT_TRUE(requests[1]->convert({}).ok());
 }
 
 // A malformed reply must not harm a client either: the right one, sent after it, still arrives.

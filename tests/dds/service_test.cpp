@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <future>
+#include <memory>
+
 #include "convert_reply.hpp"
 #include "convert_request.hpp"
 #include "guid_bytes.hpp"
@@ -151,6 +154,28 @@ TEST(Service, WaitsForTheCallersReader) {
         ASSERT_EQ(caller.wait_for(1).size(), 1u) << i;
     }
     EXPECT_EQ(planner.port().lost_replies(), 0u);
+}
+
+// Who has left cannot read an answer. One that leaves by the topic is nobody's business: its reply
+// may have other readers.
+TEST(Service, ACallerThatLeavesIsReported) {
+    std::promise<std::array<std::uint8_t, 16>> gone;
+    auto opened = PlannerPort::open(
+        test::loopback_settings(), [](auto) {}, {},
+        [&](const auto& writer) { gone.set_value(writer); });  // a second call would throw
+    ASSERT_TRUE(opened.ok()) << opened.error().detail;
+    auto by_topic = std::make_unique<RawClient>();
+    auto caller = std::make_unique<RawClient>(service_topics());
+    ASSERT_TRUE(by_topic->wait_matched());
+    ASSERT_TRUE(caller->wait_matched());
+    const auto writer = dds::bytes_of(caller->writer().guid());
+    by_topic.reset();
+    auto told = gone.get_future();
+    EXPECT_EQ(told.wait_for(100ms), std::future_status::timeout);
+    caller.reset();
+    ASSERT_EQ(told.wait_for(10s), std::future_status::ready);
+    EXPECT_EQ(told.get(), writer);
+    opened.value()->stop_listening();
 }
 
 }  // namespace

@@ -2,11 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
+#include <memory>
+
 #include <fastcdr/Cdr.h>
 #include <graspd_msgs/graspdPubSubTypes.h>
 
 #include "convert_reply.hpp"
 #include "convert_request.hpp"
+#include "received_request.hpp"
 #include "support/plan_samples.hpp"
 
 namespace graspd::dds {
@@ -237,25 +241,151 @@ TEST_F(GuardedRequest, RefusesMoreElementsThanTheBytesCanHold) {
     }
 }
 
-struct Hashed : wire::GraspRequest_ {
-    std::uint64_t payload_hash = 0;
-};
-
-// The published test vector of FNV-1a says 0x85944171f73967e8 for "foobar"; here the bytes are
-// those of the payload, header included.
-TEST(GuardedHash, IsThatOfThePayload) {
-    GuardedType<wire::GraspRequest_PubSubType, Hashed> type(std::make_shared<PayloadGuard>());
-    Bytes bytes = filled_bytes<wire::GraspRequest_>();
-    std::uint64_t expected = 0xcbf29ce484222325u;
-    for (const std::uint8_t byte : bytes) expected = (expected ^ byte) * 0x100000001b3u;
+/// What the guard makes of a payload.
+std::unique_ptr<ReceivedSample> received(Bytes bytes, std::uint32_t max_payload_bytes = 256u << 20,
+                                         const RequestLimits& limits = {}) {
+    auto guard = std::make_shared<PayloadGuard>();
+    guard->max_payload_bytes = max_payload_bytes;
+    guard->limits = limits;
+    GuardedType<wire::GraspRequest_PubSubType, ReceivedSample> type(guard);
     SerializedPayload_t payload(static_cast<std::uint32_t>(bytes.size()));
     std::ranges::copy(bytes, payload.data);
     payload.length = static_cast<std::uint32_t>(bytes.size());
-    auto* sample = static_cast<Hashed*>(type.createData());
-    ASSERT_TRUE(type.deserialize(&payload, sample));
-    EXPECT_EQ(sample->payload_hash, expected);
+    std::unique_ptr<ReceivedSample> sample(static_cast<ReceivedSample*>(type.createData()));
+    if (!type.deserialize(&payload, sample.get())) sample.reset();
+    EXPECT_EQ(guard->rejected, sample ? 0u : 1u);
+    return sample;
+}
+
+Bytes bytes_of_request(const std::function<void(wire::GraspRequest_&)>& change = {}) {
+    wire::GraspRequest_ sample;
+    fill(sample);
+    if (change) change(sample);
+    return cdr_bytes(sample);
+}
+
+TEST(GuardedRequest, HashTellsEveryByteOfThePayload) {
+    const Bytes bytes = bytes_of_request();
+    const auto same = received(bytes);
+    ASSERT_TRUE(same);
+    EXPECT_EQ(same->request_id(), "a request");
+    EXPECT_EQ(received(bytes)->payload_hash, same->payload_hash);
+    std::size_t read = 0;
+    for (std::size_t at = 4; at < bytes.size(); ++at) {
+        Bytes other = bytes;
+        other[at] ^= 1;
+        const auto sample = received(other);
+        if (!sample) continue;
+        ++read;
+        EXPECT_NE(sample->payload_hash, same->payload_hash) << at;
+    }
+    EXPECT_GT(read, bytes.size() / 2);
+}
+
+TEST(GuardedRequest, CountsItsGeometry) {
+    const auto sample = received(bytes_of_request([](wire::GraspRequest_& r) {
+        r.mesh().vertices().resize(11);
+        r.mesh().triangles().resize(7);
+        r.obstacles().resize(2);
+        r.obstacles()[0].mesh().vertices().resize(5);
+        r.obstacles()[1].mesh().vertices().resize(6);
+        r.obstacles()[0].mesh().triangles().resize(3);
+        r.obstacles()[1].mesh().triangles().resize(4);
+        r.cloud().width(5);
+        r.cloud().height(3);
+        r.cloud().data(std::vector<std::uint8_t>(15 * 12));
+    }));
+    ASSERT_TRUE(sample);
+    EXPECT_FALSE(sample->refused) << sample->refused->detail;
+    EXPECT_EQ(sample->size.vertices, 11u);
+    EXPECT_EQ(sample->size.faces, 7u);
+    EXPECT_EQ(sample->size.obstacle_vertices, 11u);
+    EXPECT_EQ(sample->size.obstacle_faces, 7u);
+    EXPECT_EQ(sample->size.points, 15u);
+}
+
+struct OverLimit {
+    const char* name;
+    std::function<void(wire::GraspRequest_&)> change;
+    std::vector<std::string> says;
+};
+void PrintTo(const OverLimit& over, std::ostream* out) {
+    *out << over.name;
+}
+
+class GuardedLimit : public testing::TestWithParam<OverLimit> {};
+
+// Nothing but the names is read of what is over a limit, so that it can be answered.
+TEST_P(GuardedLimit, IsToldByFieldCountAndLimit) {
+    const RequestLimits limits{100, 90, 80, 70};
+    const auto fits = received(bytes_of_request(), 1u << 20, limits);
+    ASSERT_TRUE(fits);
+    ASSERT_FALSE(fits->refused) << fits->refused->detail;
+    const auto sample = received(bytes_of_request(GetParam().change), 1u << 20, limits);
+    ASSERT_TRUE(sample);
+    ASSERT_TRUE(sample->refused);
+    EXPECT_EQ(sample->refused->code, PlanErrorCode::kTooLarge);
+    for (const std::string& part : GetParam().says) {
+        EXPECT_THAT(sample->refused->detail, testing::HasSubstr(part));
+    }
     EXPECT_EQ(sample->request_id(), "a request");
-    type.deleteData(sample);
+    EXPECT_EQ(sample->client_id(), "client");
+    EXPECT_EQ(sample->header().frame_id(), fits->header().frame_id());
+}
+
+using Wire = wire::GraspRequest_;
+const OverLimit kOverLimits[] = {
+    {"Vertices",
+     [](Wire& r) { r.mesh().vertices().resize(101); },
+     {"mesh.vertices = 101", "condition_mesh.max_vertices = 100"}},
+    {"Faces",
+     [](Wire& r) { r.mesh().triangles().resize(91); },
+     {"mesh.triangles = 91", "condition_mesh.max_faces = 90"}},
+    {"ObstacleFacesTogether",
+     [](Wire& r) {
+         r.obstacles().resize(2);
+         r.obstacles()[0].mesh().triangles().resize(40);
+         r.obstacles()[1].mesh().triangles().resize(31);
+     },
+     {"obstacles.triangles = 71", "server.max_obstacle_faces = 70"}},
+    {"ObstacleVertices",
+     [](Wire& r) { r.obstacles()[0].mesh().vertices().resize(211); },
+     {"obstacles.vertices = 211", "3 x server.max_obstacle_faces = 210"}},
+    {"Points",
+     [](Wire& r) {
+         r.cloud().width(81);
+         r.cloud().height(1);
+         r.cloud().data(std::vector<std::uint8_t>(81 * 12));
+     },
+     {"cloud.width x cloud.height = 81", "triangulate_cloud.limit_points = 80"}},
+    {"Grippers", [](Wire& r) { r.grippers().resize(9); }, {"grippers has 9", "at most 8"}},
+    {"Obstacles", [](Wire& r) { r.obstacles().resize(65); }, {"obstacles has 65", "at most 64"}},
+    {"Cones",
+     [](Wire& r) { r.approach_cones().resize(65); },
+     {"approach_cones has 65", "at most 64"}},
+    {"CloudFields",
+     [](Wire& r) { r.cloud().fields().resize(257); },
+     {"cloud.fields = 257", "limit 256"}},
+    {"GripperParts",
+     [](Wire& r) { r.grippers()[0].palm_meshes()[0].vertices().resize(100001); },
+     {"grippers.vertices = 100001", "limit 100000"}},
+};
+INSTANTIATE_TEST_SUITE_P(Guard, GuardedLimit, testing::ValuesIn(kOverLimits),
+                         [](const auto& over) { return over.param.name; });
+
+TEST(GuardedRequest, ATooLargePayloadIsToldWithItsNames) {
+    const Bytes bytes = bytes_of_request();
+    const auto limit = static_cast<std::uint32_t>(bytes.size() - 1);
+    const auto sample = received(bytes, limit);
+    ASSERT_TRUE(sample);
+    ASSERT_TRUE(sample->refused);
+    EXPECT_THAT(sample->refused->detail,
+                testing::AllOf(testing::HasSubstr("payload = " + std::to_string(bytes.size())),
+                               testing::HasSubstr("max_payload_bytes = " + std::to_string(limit))));
+    EXPECT_EQ(sample->request_id(), "a request");
+    Bytes broken = bytes;
+    std::fill_n(broken.begin() + 4, 16, std::uint8_t{0xff});  // no names to be read
+    EXPECT_FALSE(received(broken, limit));
 }
 
 }  // namespace

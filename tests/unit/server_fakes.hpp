@@ -24,6 +24,8 @@ struct FakeRequest : IncomingRequest {
     std::string key;
     PlanRequest problem;
     std::optional<PlanError> error;
+    RequestSize counted;
+    bool call = false;
 
     FakeRequest(std::uint8_t writer, const std::string& request_id, std::uint64_t hash = 7) {
         id.writer[0] = writer;
@@ -37,6 +39,9 @@ struct FakeRequest : IncomingRequest {
     std::chrono::steady_clock::time_point received() const override { return at; }
     const std::string& frame_id() const override { return frame; }
     const std::string& object_key() const override { return key; }
+    double time_budget_s() const override { return problem.options.time_budget_s; }
+    RequestSize size() const override { return counted; }
+    bool is_call() const override { return call; }
     Result<PlanRequest> convert(std::span<const Gripper>) const override {
         if (error) return *error;
         return problem;

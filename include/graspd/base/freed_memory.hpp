@@ -10,6 +10,9 @@ namespace graspd {
 /// Does nothing where the C library is not glibc. Call it before threads start.
 void keep_freed_memory(std::size_t bytes);
 
+/// Gives what is kept to the system. Takes some milliseconds; any thread.
+void give_back_freed_memory();
+
 /// 64 MiB.
 constexpr std::size_t kFreedMemory_bytes = std::size_t{64} << 20;
 

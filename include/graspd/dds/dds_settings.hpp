@@ -30,6 +30,15 @@ inline std::string full_name(const RosNode& node) {
     return (node.node_namespace == "/" ? "" : node.node_namespace) + "/" + node.name;
 }
 
+/// How much geometry a request may hold. What is over a limit is counted before it is read, and
+/// refused by a reply that names it.
+struct RequestLimits {
+    std::uint32_t max_vertices = 2000000;  ///< of the object's mesh
+    std::uint32_t max_faces = 4000000;
+    std::uint32_t max_points = 5000000;          ///< of the object's cloud
+    std::uint32_t max_obstacle_faces = 1000000;  ///< of all obstacles together
+};
+
 /// What both ends of the wire need to know before they join a domain.
 struct DdsSettings {
     std::uint32_t domain = 0;  ///< DDS domain id, 0..232
@@ -42,7 +51,9 @@ struct DdsSettings {
     std::string planner_id;                        ///< names this process in its replies
     std::string version;                           ///< likewise, such as "0.1.0"
     std::string config_hash;                       ///< likewise, 16 hexadecimal digits
-    std::uint32_t max_payload_bytes = 256u << 20;  ///< [byte] a larger sample is refused unread
+    std::uint32_t max_payload_bytes = 256u << 20;  ///< [byte] of a larger sample no more is read
+                                                   ///< than who sent it
+    RequestLimits limits;
 };
 
 }  // namespace graspd

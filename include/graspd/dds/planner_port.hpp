@@ -21,7 +21,16 @@ struct RequestIdentity {
     std::array<std::uint8_t, 16> writer{};  ///< GUID of the DDS writer: prefix, then entity id
     std::string client_id;           ///< its first 64 characters, unprintable ones shown as '?'
     std::string request_id;          ///< likewise; convert() refuses an id that this had to change
-    std::uint64_t payload_hash = 0;  ///< FNV-1a of the serialized payload as received
+    std::uint64_t payload_hash = 0;  ///< of the serialized payload as received
+};
+
+/// How much geometry a request brings, counted before it is converted.
+struct RequestSize {
+    std::uint64_t vertices = 0;  ///< of the object's mesh
+    std::uint64_t faces = 0;
+    std::uint64_t points = 0;             ///< of the object's cloud
+    std::uint64_t obstacle_vertices = 0;  ///< of all obstacles together
+    std::uint64_t obstacle_faces = 0;
 };
 
 /// A request as the listener took it. Nothing has been converted yet, so taking it is cheap.
@@ -34,6 +43,10 @@ public:
     virtual std::chrono::steady_clock::time_point received() const = 0;
     virtual const std::string& frame_id() const = 0;    ///< name of F, echoed in the reply
     virtual const std::string& object_key() const = 0;  ///< empty when geometry came along
+    /// [s] from receipt to reply: as asked for, or the default where it is absent or no number
+    virtual double time_budget_s() const = 0;
+    virtual RequestSize size() const = 0;
+    virtual bool is_call() const = 0;  ///< by the service: its caller alone can read the answer
 
     /// Checks every field and converts it. With an object_key the object is left empty for the
     /// caller to fill in.
@@ -57,6 +70,10 @@ struct CancelOrder {
 /// Told of every CancelRequest; as RequestHandler.
 using CancelHandler = std::function<void(const CancelOrder&)>;
 
+/// Told of the GUID of a writer of service calls that has left, or whose participant has; as
+/// RequestHandler.
+using GoneHandler = std::function<void(const std::array<std::uint8_t, 16>&)>;
+
 /// What goes back. The ids, frame_id and stamp are echoed from `to`, not from `reply`.
 struct OutgoingReply {
     std::shared_ptr<const IncomingRequest> to;
@@ -75,7 +92,8 @@ public:
     ///         kInvalidInput for a bad setting; kInternal when the middleware refuses an endpoint
     static Result<std::unique_ptr<PlannerPort>> open(const DdsSettings& settings,
                                                      RequestHandler handler,
-                                                     CancelHandler cancel = {});
+                                                     CancelHandler cancel = {},
+                                                     GoneHandler gone = {});
     /// Leaves the domain: stops listening, then removes every endpoint.
     virtual ~PlannerPort() = default;
 

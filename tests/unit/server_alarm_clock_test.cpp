@@ -1,0 +1,52 @@
+#include "alarm_clock.hpp"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "server_fakes.hpp"
+
+namespace graspd::server {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using Clock = std::chrono::steady_clock;
+
+TEST(AlarmClock, RingsInTheOrderOfTimesAndNotBefore) {
+    test::Watched<std::vector<std::string>> rung;
+    AlarmClock clock;
+    const auto start = Clock::now();
+    const auto ring = [&](const char* name, Clock::time_point when) {
+        return clock.set(when, [&rung, name, when] {
+            EXPECT_GE(Clock::now(), when);
+            rung.change([&](auto& list) { list.emplace_back(name); });
+        });
+    };
+    ring("third", start + 20ms);
+    ring("first", start - 1h);
+    ring("second", start + 10ms);
+    const auto forgotten = ring("forgotten", start + 15ms);
+    clock.forget(forgotten);
+    ASSERT_TRUE(rung.wait([](const auto& list) { return list.size() == 3; }));
+    EXPECT_THAT(rung.copy(), ElementsAre("first", "second", "third"));
+}
+
+TEST(AlarmClock, MayBeSetAndForgottenFromAnAlarmAndAfterTheEnd) {
+    test::Watched<int> rings;
+    AlarmClock clock;
+    const auto late = clock.set(Clock::now() + 1h, [] { FAIL() << "in an hour"; });
+    clock.set(Clock::now(), [&] {
+        clock.forget(late);
+        clock.set(Clock::now(), [&] { rings.change([](int& count) { ++count; }); });
+    });
+    EXPECT_TRUE(rings.wait([](int count) { return count == 1; }));
+    clock.stop();
+    clock.set(Clock::now(), [] { FAIL() << "after the end"; });
+    clock.forget(late);
+    clock.stop();
+}
+
+}  // namespace
+}  // namespace graspd::server
