@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "graspd/base/stop.hpp"
+#include "graspd/base/stoppable_sort.hpp"
 
 namespace graspd::concavity_detail {
 namespace {
@@ -183,7 +184,7 @@ std::optional<PlanError> GapPoints::add_on_facet(const HullFacet& facet) {
 std::optional<PlanError> GapPoints::add_above_vertices() {
     std::vector<std::uint32_t> used;
     for (const Triangle& t : mesh_.faces) used.insert(used.end(), t.begin(), t.end());
-    std::ranges::sort(used);
+    stoppable_sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
     std::size_t step = 0;
     for (const std::uint32_t v : used) {

@@ -93,8 +93,9 @@ HullPlaneTree::HullPlaneTree(const OuterHull& hull) : facets_(hull.facets) {
     }
     tree_ = build_box_tree(boxes);
     if (BoxTree::is_leaf(tree_.root)) add_pack(tree_.root);
+    std::size_t step = 0;
     for (BoxTree::Node& node : tree_.nodes) {
-        stop_point(packs_.size());
+        stop_point(step++);
         for (std::uint32_t& child : node.child) {
             if (BoxTree::is_leaf(child)) add_pack(child);
         }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "graspd/base/stop.hpp"
+#include "graspd/base/stoppable_sort.hpp"
 
 extern "C" {
 #include <libqhull_r/qhull_ra.h>
@@ -127,7 +128,7 @@ Result<OuterHull> outer_hull(std::span<const Eigen::Vector3d> points) {
         stop_point(hull.vertices.size());
         hull.vertices.push_back(static_cast<std::uint32_t>(qh_pointid(qh, vertex->point)));
     }
-    std::ranges::sort(hull.vertices);
+    stoppable_sort(hull.vertices);
     qh_getarea(qh, qh->facet_list);
     hull.volume_m3 = qh->totvol;
     return hull;

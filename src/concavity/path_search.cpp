@@ -8,6 +8,7 @@
 
 #include "graspd/base/parallel.hpp"
 #include "graspd/base/stop.hpp"
+#include "graspd/base/stoppable_sort.hpp"
 #include "slide_bends.hpp"
 
 namespace graspd::concavity_detail {
@@ -44,7 +45,9 @@ PathSearch::PathSearch(const PathGround& ground, const HullPlaneTree& planes,
     field_.value_m.assign(count, kInfinity);
     field_.flag.assign(count, ConcavityFlag::kEnclosed);
     field_.parent.assign(count, ConcavityField::kNoParent);
+    stop_point();
     failed_.assign(count * config.failed_memory, ConcavityField::kNoParent);
+    stop_point();
     relaxations_.assign(count, 0);
     blockers_.resize(count);
     band_.first.assign(count, Band::kEnd);
@@ -310,8 +313,7 @@ ConcavityField PathSearch::take() {
     for (std::uint32_t v = 0; v < field_.value_m.size(); ++v) {
         if (field_.flag[v] == ConcavityFlag::kPath) order.push_back(v);
     }
-    stop_point();
-    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    stoppable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
         return field_.value_m[a] != field_.value_m[b] ? field_.value_m[a] < field_.value_m[b]
                                                       : a < b;
     });

@@ -233,6 +233,7 @@ Result<ConditionedMesh> condition_mesh(const TriangleMesh& soup,
     if (auto bad = check_values(soup)) return *bad;
     stop_point();
     const std::vector<char> in_use = vertices_in_use(soup);
+    stop_point();
     const double diagonal_m = diagonal_of(soup, in_use);
     if (!std::isfinite(diagonal_m)) {
         return error(PlanErrorCode::kInvalidInput, "mesh extent ", diagonal_m,

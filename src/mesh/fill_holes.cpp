@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "graspd/base/stop.hpp"
+#include "graspd/base/stoppable_sort.hpp"
 #include "hash_bits.hpp"
 
 namespace graspd::mesh_detail {
@@ -42,12 +43,14 @@ public:
 
     /// Edges with more faces, in the order of the turned half-edges.
     void add_crowded(std::vector<CrowdedHalf> crowded, DisjointSets& groups) {
-        std::ranges::sort(crowded, {}, [&](const CrowdedHalf& each) {
+        const auto key = [&](const CrowdedHalf& each) {
             return CrowdedHalf{turned(each.edge, patches_.flip), turned(each.half, patches_.flip)};
-        });
+        };
+        stoppable_sort(crowded,
+                       [&](const CrowdedHalf& a, const CrowdedHalf& b) { return key(a) < key(b); });
         surplus_of_patch_.resize(patches_.patches);
         for (std::size_t begin = 0, end = 0; begin < crowded.size(); begin = end) {
-            stop_point(begin);
+            stop_point();
             while (end < crowded.size() && crowded[end].edge == crowded[begin].edge) ++end;
             balance(std::span(crowded).subspan(begin, end - begin), groups);
         }
@@ -172,7 +175,7 @@ HoleFill fill_holes(const std::vector<OpenEdge>& open,
             (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
     };
     for (const std::vector<std::uint32_t>& loop : loops) {
-        stop_point(mesh.faces.size());
+        stop_point();
         const std::uint32_t patch = open[loop.front()].patch;
         for (const std::uint32_t i : loop) groups.unite(patch, open[i].patch);
         if (loop.size() == 3) {

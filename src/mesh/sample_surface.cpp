@@ -10,6 +10,7 @@
 #include "graspd/base/plane_points.hpp"
 #include "graspd/base/settings.hpp"
 #include "graspd/base/stop.hpp"
+#include "graspd/base/stoppable_sort.hpp"
 
 namespace graspd {
 namespace {
@@ -125,9 +126,7 @@ double choose_spacing(std::span<const Face> faces, double configured_m, double m
     // The same sum whatever the order of faces.
     std::vector<double> areas(faces.size());
     std::ranges::transform(faces, areas.begin(), &Face::area_m2);
-    stop_point();
-    std::ranges::sort(areas);
-    stop_point();
+    stoppable_sort(areas);
     area_m2 = 0.0;
     for (const double area : areas) area_m2 += area;
     const double growth = std::sqrt(area_m2 / max_samples) / configured_m - 1.0;

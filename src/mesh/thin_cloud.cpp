@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "graspd/base/stop.hpp"
+#include "graspd/base/stoppable_sort.hpp"
 #include "hash_bits.hpp"
 #include "weld_vertices.hpp"
 
@@ -83,8 +84,7 @@ std::vector<std::uint32_t> choose_in_cubes(const std::vector<Eigen::Vector3d>& p
     std::vector<std::pair<std::uint64_t, std::uint32_t>> by_cube;
     by_cube.reserve(points.size());
     for (std::uint32_t i = 0; i < points.size(); ++i) by_cube.emplace_back(grid.key(points[i]), i);
-    stop_point();
-    std::ranges::sort(by_cube);
+    stoppable_sort(by_cube);
     std::vector<std::uint32_t> leader(points.size());
     stop_point();
     for (auto first = by_cube.begin(); first != by_cube.end();) {

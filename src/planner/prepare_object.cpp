@@ -90,9 +90,11 @@ Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointClou
     if (!frame) return frame.error();
     log.out("mesh/principal_frame", 1);
     object.X_OP = frame.value();
+    stop_point();
     object.mesh_P = transformed(object.X_OP.inverse(), solid.mesh);
     object.center_of_mass_P = object.X_OP.inverse() * solid.center_of_mass;
 
+    stop_point();
     const auto method = concavity_method(config.vertex_concavity);
     if (!method) return method.error();
     const auto bad = method.value() == ConcavityMethod::kAnyAngle

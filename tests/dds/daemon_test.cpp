@@ -206,6 +206,30 @@ TEST(DaemonProcess, SigtermWhilePlanningAnswersAndEndsWithZero) {
                 testing::AnyOf(PlanStatus::kPartial, PlanStatus::kCancelled));
 }
 
+// The fence leaves room for what the middleware needs and for small plans, not for a plan of a
+// million faces, whose mesh and its doubles alone are 38 MB each.
+TEST(DaemonProcess, OutOfMemoryCostsItsRequestAlone) {
+    const std::uint32_t domain = daemon_domain(10);
+    const test::TemporaryFile fence(
+        "_fence.yaml", "server:\n  workers: 1\n  max_address_space_bytes: 700000000\n");
+    Daemon daemon(domain, {"--config", fence.path()});
+    auto client = PlannerClient::open(client_settings(domain), "hungry client");
+    ASSERT_TRUE(client.ok()) << client.error().detail;
+    ASSERT_TRUE(client.value()->wait_for_planner(10s));
+    PlanRequest hungry = box_request("hungry");
+    hungry.object_O = test::torus(0.05, 0.015, 1000000);
+    hungry.options.time_budget_s = 30.0;
+    const auto refused = client.value()->request(hungry, 40s, 0);
+    ASSERT_TRUE(refused.ok()) << refused.error().detail << daemon.errors();
+    EXPECT_EQ(refused.value().status, PlanStatus::kInternalError);
+    EXPECT_THAT(refused.value().message, HasSubstr("out of memory"));
+    const auto reply = client.value()->request(box_request("modest"), 10s, 0);
+    ASSERT_TRUE(reply.ok()) << reply.error().detail << daemon.errors();
+    EXPECT_EQ(reply.value().status, PlanStatus::kOk) << reply.value().message;
+    daemon.send_signal(SIGTERM);
+    EXPECT_EQ(daemon.wait_exit(), 0);
+}
+
 TEST(DaemonProcess, AReaderThatJoinsLateGetsTheReply) {
     const std::uint32_t domain = daemon_domain(7);
     const Daemon daemon(domain);

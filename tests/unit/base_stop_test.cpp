@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
+#include <functional>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "graspd/base/parallel.hpp"
+#include "graspd/base/stoppable_sort.hpp"
 
 namespace graspd {
 namespace {
@@ -68,6 +74,21 @@ TEST(StopPoint, GoesAlongToOtherThreads) {
     EXPECT_THROW(run_together({[] {}}), Stopped);
     const StopScope shielded(nullptr);
     EXPECT_NO_THROW(for_blocks(1000, 1, [](std::size_t, std::size_t) { stop_point(); }));
+}
+
+TEST(StoppableSort, SortsAsTheStandardDoes) {
+    std::mt19937_64 random(3);
+    for (const std::size_t count : {0, 1, 1000, 32768, 32769, 100000, 200001}) {
+        std::vector<std::uint64_t> items(count);
+        for (std::uint64_t& item : items) item = random() % 100000;
+        std::vector<std::uint64_t> expected = items;
+        std::ranges::sort(expected, std::greater<>());
+        stoppable_sort(items, std::greater<>());
+        EXPECT_EQ(items, expected) << count;
+    }
+    std::vector<int> many(100000, 0);
+    const StopScope scope(kStop);
+    EXPECT_THROW(stoppable_sort(many), Stopped);
 }
 
 // An exception beside a loop must not end the loop as if it were done.

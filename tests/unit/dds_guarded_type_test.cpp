@@ -253,7 +253,7 @@ std::unique_ptr<ReceivedSample> received(Bytes bytes, std::uint32_t max_payload_
     payload.length = static_cast<std::uint32_t>(bytes.size());
     std::unique_ptr<ReceivedSample> sample(static_cast<ReceivedSample*>(type.createData()));
     if (!type.deserialize(&payload, sample.get())) sample.reset();
-    EXPECT_EQ(guard->rejected, sample ? 0u : 1u);
+    EXPECT_EQ(guard->rejected.load(), sample ? 0u : 1u);
     return sample;
 }
 
