@@ -7,6 +7,7 @@
 // and memory: too many of these, and the process asks to be started anew.
 
 #include <exception>
+#include <utility>
 
 #include "make_reply.hpp"
 #include "planner_service.hpp"
@@ -21,14 +22,14 @@ constexpr std::chrono::milliseconds kPatience{40};
 
 /// The budget of a request that waits is over.
 void PlannerService::expire(const RequestPtr& request) noexcept {
+    const std::scoped_lock lock(mutex_);
     try {
-        const std::scoped_lock lock(mutex_);
         const auto at = open_.find(request);
         if (at == open_.end() || at->second.begun) return;
         queue_.remove(request);
         finish_locked(request, budget_spent(*request), {});
     } catch (const std::exception&) {
-        lose(request);
+        lose_locked(request);
     }
 }
 
@@ -52,33 +53,32 @@ PlannerService::DropFlag PlannerService::begin(const RequestPtr& request,
 /// @return whether it takes another one
 bool PlannerService::end(const std::shared_ptr<Worker>& worker, const PlanReply& reply,
                          const Work& work) noexcept {
-    const RequestPtr request = worker->job;  // that no other thread changes
-    try {
-        finish(request, reply, work);
-    } catch (const std::exception&) {
-        lose(request);
-    }
     const std::scoped_lock lock(mutex_);
+    const RequestPtr request = std::exchange(worker->job, nullptr);
     alarms_.forget(worker->alarm);
-    worker->job = nullptr;
     if (!worker->replaced) --counters_.busy;
+    try {
+        finish_locked(request, reply, work);
+    } catch (const std::exception&) {
+        lose_locked(request);
+    }
     return !worker->replaced;
 }
 
 /// The budget of a request is over, and its planner has not stopped.
 void PlannerService::overrun(const RequestPtr& request,
                              const std::shared_ptr<Worker>& worker) noexcept {
+    const std::scoped_lock lock(mutex_);
     try {
-        const std::scoped_lock lock(mutex_);
         if (worker->job != request) return;
         worker->replaced = true;
         --counters_.busy;
         worker->alarm = alarms_.set(std::chrono::steady_clock::now() + abandon_after_,
                                     [this, request, worker] { abandon(request, worker); });
-        finish_locked(request, overran(*request), {});
         if (!stop_.stop_requested()) hire_locked();
+        finish_locked(request, overran(*request), {});
     } catch (const std::exception&) {
-        lose(request);
+        lose_locked(request);
     }
 }
 
@@ -96,8 +96,7 @@ void PlannerService::abandon(const RequestPtr& request,
 }
 
 /// A request that not even an answer could be found for.
-void PlannerService::lose(const RequestPtr& request) noexcept {
-    const std::scoped_lock lock(mutex_);
+void PlannerService::lose_locked(const RequestPtr& request) noexcept {
     ++counters_.lost;
     open_.erase(request);
     changed_.notify_all();

@@ -119,7 +119,7 @@ private:
     };
     /// A thread that plans.
     struct Worker : std::enable_shared_from_this<Worker> {
-        RequestPtr job;         ///< null: it waits for one. Written by its own thread alone
+        RequestPtr job;         ///< null: it waits for one
         AlarmClock::Id alarm;   ///< of the job
         bool replaced = false;  ///< another one took its place: it ends after its job
         bool ended = false;
@@ -135,7 +135,7 @@ private:
     void expire(const RequestPtr& request) noexcept;
     void overrun(const RequestPtr& request, const std::shared_ptr<Worker>& worker) noexcept;
     void abandon(const RequestPtr& request, const std::shared_ptr<Worker>& worker) noexcept;
-    void lose(const RequestPtr& request) noexcept;
+    void lose_locked(const RequestPtr& request) noexcept;
     template <class Chosen>
     std::size_t cancel_those(Chosen&& chosen);
     PlanReply answer(const IncomingRequest& request, const DropFlag& dropped, Work& work);
