@@ -3,6 +3,7 @@
 #include "graspd/config/domain_id.hpp"
 #include "graspd/config/network_profile.hpp"
 #include "graspd/config/profile_directory.hpp"
+#include "graspd/config/security.hpp"
 #include "graspd/config/wire_names.hpp"
 
 namespace graspd::cli {
@@ -19,7 +20,10 @@ Result<DdsSettings> dds_settings_of(const DdsArguments& arguments) {
     if (auto error = check_namespace("--namespace", ros.node_namespace)) return *std::move(error);
     auto names = wire_names(ros);
     if (!names.ok()) return names.error();
+    auto security = choose_security(ros.enclave, security_variables());
+    if (!security.ok()) return security.error();
     DdsSettings settings;
+    settings.security = std::move(security).value();
     settings.domain = domain.value();
     settings.profile_file = network.value().profile_file;
     settings.static_peers = network.value().static_peers;

@@ -12,6 +12,7 @@
 #include <fastdds/dds/log/Log.hpp>
 #include <fastdds/dds/log/StdoutErrConsumer.hpp>
 
+#include "security_properties.hpp"
 #include "type_hashes.hpp"
 
 namespace graspd::dds {
@@ -119,11 +120,15 @@ Result<std::unique_ptr<Participant>> Participant::join(const DdsSettings& settin
     if (settings.node.gid_bytes != GidBytes::kOff) {
         set_user_data(qos.user_data(), "enclave=" + settings.node.enclave + ";");
     }
+    if (settings.security) set_security(*settings.security, qos);
     std::unique_ptr<Participant> out(new Participant);
     out->participant_ = factory().create_participant(settings.domain, qos);
     if (out->participant_ == nullptr) {
         return PlanError{PlanErrorCode::kInternal,
-                         "the middleware did not join domain " + std::to_string(settings.domain)};
+                         "the middleware did not join domain " + std::to_string(settings.domain) +
+                             (settings.security ? "; are the files beside " +
+                                                      settings.security->certificate + " valid?"
+                                                : "")};
     }
     out->publisher_ = out->participant_->create_publisher(fast::PUBLISHER_QOS_DEFAULT);
     out->subscriber_ = out->participant_->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT);

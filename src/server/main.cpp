@@ -17,6 +17,7 @@
 #include "graspd/config/load_gripper.hpp"
 #include "graspd/config/network_profile.hpp"
 #include "graspd/config/profile_directory.hpp"
+#include "graspd/config/security.hpp"
 #include "graspd/config/version.hpp"
 #include "graspd/config/wire_names.hpp"
 #include "idle_watch.hpp"
@@ -67,10 +68,13 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     if (!network.ok()) return network.error();
     auto names = wire_names(arguments.ros);
     if (!names.ok()) return names.error();
+    auto security = choose_security(arguments.ros.enclave, security_variables());
+    if (!security.ok()) return security.error();
     DdsSettings dds;
     dds.domain = domain.value();
     dds.profile_file = network.value().profile_file;
     dds.static_peers = network.value().static_peers;
+    dds.security = std::move(security).value();
     dds.names = std::move(names).value();
     dds.node = ros_node(arguments.ros, config.ros);
     dds.planner_id = process_name();
@@ -98,12 +102,14 @@ void log_ready(const Setup& setup) {
     }
     const DdsSettings& dds = setup.dds;
     spdlog::info(
-        "event=ready domain={} interfaces={} profile={} network={} node={} request_topic={} "
+        "event=ready domain={} interfaces={} profile={} network={} security={} node={} "
+        "request_topic={} "
         "planner_id={} "
         "version={} config_hash={} "
         "workers={} queue_capacity={} grippers={}",
         dds.domain, log_value(profile_file_interfaces(dds.profile_file)),
-        log_value(dds.profile_file), log_value(setup.network_why), log_value(full_name(dds.node)),
+        log_value(dds.profile_file), log_value(setup.network_why),
+        dds.security ? log_value(dds.security->certificate) : "off", log_value(full_name(dds.node)),
         log_value(dds.names.grasp_request), log_value(dds.planner_id), dds.version, dds.config_hash,
         setup.config.server.workers, setup.config.server.queue_capacity, log_value(names));
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "graspd/base/security_enclave.hpp"
 #include "graspd/base/wire_names.hpp"
 
 namespace graspd {
@@ -45,7 +47,8 @@ struct DdsSettings {
     /// XML file with the profiles that graspd uses, such as profiles/dds/loopback.xml; required.
     /// Nothing else is read: neither the environment's profile nor one in the working folder.
     std::string profile_file;
-    std::vector<std::string> static_peers;  ///< further hosts where to look for participants
+    std::vector<std::string> static_peers;    ///< further hosts where to look for participants
+    std::optional<SecurityEnclave> security;  ///< absent: everybody may speak, read and listen
     WireNames names;
     RosNode node;
     std::string planner_id;                        ///< names this process in its replies
