@@ -1,4 +1,5 @@
-# Install and export: find_package(graspd) gives graspd::core and the program graspd::graspctl, and
+# Install and export, in the three components that packages.cmake makes Debian packages of: graspd (the
+# programs), libgraspd (shared libraries, profiles) and libgraspd-dev. find_package(graspd) gives graspd::core and the program graspd::graspctl, and
 # graspd::msgs, graspd::dds and the daemon graspd::graspd when they were built; graspd::simulate when
 # asked for. The two have export sets of their own, so that a user of graspd::core needs neither Fast
 # DDS nor MuJoCo.
@@ -21,29 +22,42 @@ function(graspd_install export)
     get_target_property(kind ${target} TYPE)
     if(kind STREQUAL EXECUTABLE)
       set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-      install(TARGETS ${target} EXPORT ${export})
+      install(TARGETS ${target} EXPORT ${export} RUNTIME COMPONENT graspd)
     else()
-      install(TARGETS ${target} EXPORT ${export} FILE_SET HEADERS)
+      # DEFINE_SYMBOL: the objects of shared and static libraries are the same.
+      set_target_properties(${target} PROPERTIES DEFINE_SYMBOL ""
+        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+      install(TARGETS ${target} EXPORT ${export}
+              LIBRARY COMPONENT libgraspd NAMELINK_COMPONENT libgraspd-dev
+              ARCHIVE COMPONENT libgraspd-dev
+              FILE_SET HEADERS COMPONENT libgraspd-dev)
     endif()
   endforeach()
 endfunction()
 
 graspd_install(graspdTargets graspd_core graspctl)
-install(EXPORT graspdTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir})
+install(EXPORT graspdTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir}
+        COMPONENT libgraspd-dev)
 if(TARGET graspd_msgs)
   graspd_install(graspdDdsTargets graspd_msgs graspd_dds graspd)
-  install(EXPORT graspdDdsTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir})
+  install(EXPORT graspdDdsTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir}
+          COMPONENT libgraspd-dev)
 endif()
 if(TARGET graspd_simulate)
   graspd_install(graspdSimulateTargets graspd_simulate)
-  install(EXPORT graspdSimulateTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir})
+  install(EXPORT graspdSimulateTargets NAMESPACE graspd:: DESTINATION ${graspd_config_dir}
+          COMPONENT libgraspd-dev)
 endif()
 
 # The programs look for ../share/graspd/profiles from their own place.
-install(DIRECTORY profiles/ DESTINATION share/graspd/profiles)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY profiles/ DESTINATION share/graspd/profiles COMPONENT libgraspd)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libgraspd)
+if(TARGET graspd)
+  configure_file(cmake/graspd.service.in graspd.service @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/graspd.service DESTINATION lib/systemd/system COMPONENT graspd)
+endif()
 if(EXISTS ${PROJECT_SOURCE_DIR}/idl)
-  install(DIRECTORY idl/ DESTINATION share/graspd/idl)
+  install(DIRECTORY idl/ DESTINATION share/graspd/idl COMPONENT libgraspd-dev)
 endif()
 
 configure_package_config_file(cmake/graspdConfig.cmake.in graspdConfig.cmake
@@ -51,4 +65,4 @@ configure_package_config_file(cmake/graspdConfig.cmake.in graspdConfig.cmake
 write_basic_package_version_file(graspdConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/graspdConfig.cmake ${PROJECT_BINARY_DIR}/graspdConfigVersion.cmake
               cmake/pcl.cmake
-        DESTINATION ${graspd_config_dir})
+        DESTINATION ${graspd_config_dir} COMPONENT libgraspd-dev)
