@@ -37,6 +37,8 @@ std::variant<DaemonArguments, int> parse_daemon_arguments(int argc, const char* 
     app.add_option("--log-level", to.log_level, "how much goes to standard error")
         ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}));
     app.add_flag("--print-config", to.print_config, "print the settings in force and leave");
+    app.add_flag("--supervise", to.supervise,
+                 "run the participant as a child and start it again when it crashes");
     try {
         std::ranges::reverse(words);  // as CLI11 wants them
         app.parse(std::move(words));

@@ -20,6 +20,7 @@ struct DaemonArguments {
     std::optional<std::uint32_t> workers;  ///< absent: as configured
     std::string log_level = "info";        ///< debug, info, warning, error or off
     bool print_config = false;             ///< print the settings in force and leave
+    bool supervise = false;                ///< start the participant again when it crashes
     RosArguments ros;                      ///< what stands after --ros-args
 };
 

@@ -25,6 +25,7 @@
 #include "planner_service.hpp"
 #include "profile_interfaces.hpp"
 #include "request_line.hpp"
+#include "supervisor.hpp"
 
 // graspd: the planner as a DDS participant. Here, and nowhere else, it is decided what is built
 // with what.
@@ -49,6 +50,7 @@ struct Setup {
     DdsSettings dds;
     std::string network_why;  ///< what chose the profile file
     std::vector<Gripper> grippers;
+    std::uint32_t restarts = 0;  ///< by the supervisor
 };
 
 std::string process_name() {
@@ -84,7 +86,8 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     dds.limits = {config.planner.condition_mesh.max_vertices,
                   config.planner.condition_mesh.max_faces,
                   config.planner.triangulate_cloud.limit_points, config.server.max_obstacle_faces};
-    return Setup{config, std::move(dds), network.value().why, std::move(grippers).value()};
+    return Setup{config, std::move(dds), network.value().why, std::move(grippers).value(),
+                 restarts_from_environment()};
 }
 
 void open_log(const std::string& level) {
@@ -106,12 +109,13 @@ void log_ready(const Setup& setup) {
         "request_topic={} "
         "planner_id={} "
         "version={} config_hash={} "
-        "workers={} queue_capacity={} grippers={}",
+        "workers={} queue_capacity={} restarts={} grippers={}",
         dds.domain, log_value(profile_file_interfaces(dds.profile_file)),
         log_value(dds.profile_file), log_value(setup.network_why),
         dds.security ? log_value(dds.security->certificate) : "off", log_value(full_name(dds.node)),
         log_value(dds.names.grasp_request), log_value(dds.planner_id), dds.version, dds.config_hash,
-        setup.config.server.workers, setup.config.server.queue_capacity, log_value(names));
+        setup.config.server.workers, setup.config.server.queue_capacity, setup.restarts,
+        log_value(names));
 }
 
 void log_cancel(const CancelOrder& order, std::size_t cancelled) {
@@ -186,8 +190,10 @@ int serve(const Setup& setup, const sigset_t& signals) {
     port = std::move(opened).value();
     service.start();
     const auto tell = [&](bool stopping) {
-        port->write_state(
-            describe_state(service.counters(), setup.config.server, setup.grippers, stopping));
+        PlannerState state =
+            describe_state(service.counters(), setup.config.server, setup.grippers, stopping);
+        state.restarts = setup.restarts;
+        port->write_state(std::move(state));
     };
     IdleWatch idle(std::chrono::milliseconds(setup.config.server.idle_trim_ms));
     Beat beat(kStatusPeriod, [&] {
@@ -214,16 +220,26 @@ int serve(const Setup& setup, const sigset_t& signals) {
     return code;
 }
 
-int run(const DaemonArguments& arguments, const sigset_t& signals) {
+/// Needs neither threads nor DDS, and so outlives what kills the participant.
+int supervise_participant(const std::vector<std::string>& participant,
+                          const SupervisorConfig& config) {
+    return supervise(participant, config, [](bool fault, const std::string& line) {
+        spdlog::log(fault ? spdlog::level::err : spdlog::level::info, "{}", line);
+    });
+}
+
+int run(const DaemonArguments& arguments, const std::vector<std::string>& participant,
+        const sigset_t& signals) {
     const auto config = daemon_config(arguments);
     if (!config.ok()) return fail(config.error());
     if (arguments.print_config) {
         std::cout << print_config(config.value()) << std::flush;
         return std::cout ? 0 : kExitInternal;
     }
+    open_log(arguments.log_level);
+    if (arguments.supervise) return supervise_participant(participant, config.value().supervisor);
     const auto setup = read_setup(arguments, config.value());
     if (!setup.ok()) return fail(setup.error());
-    open_log(arguments.log_level);
     const std::uint64_t fence = setup.value().config.server.max_address_space_bytes;
     if (!fence_memory(fence)) {
         return fail({PlanErrorCode::kInvalidInput,
@@ -245,7 +261,8 @@ int main(int argc, char** argv) {
     if (const int* code = std::get_if<int>(&arguments)) return *code;
     keep_freed_memory(kFreedMemory_bytes);
     try {
-        return run(std::get<DaemonArguments>(arguments), signals);
+        return run(std::get<DaemonArguments>(arguments), participant_arguments(argc, argv),
+                   signals);
     } catch (const std::exception& error) {
         return fail({PlanErrorCode::kInternal, error.what()});
     }

@@ -57,17 +57,33 @@ struct RosConfig {
     }
 };
 
+/// How `graspd --supervise` starts the participant again; group `supervisor` of planner.yaml.
+struct SupervisorConfig {
+    double first_wait_s = 0.1;      ///< [s] before the first start after a crash; doubles each time
+    double longest_wait_s = 10.0;   ///< [s] it doubles up to here
+    double healthy_after_s = 60.0;  ///< [s] after so long a life the next wait is the first again
+
+    template <class Self, class Visitor>
+    static void describe(Self& self, Visitor&& visit) {
+        visit("first_wait_s", self.first_wait_s, 0.001, 60.0);
+        visit("longest_wait_s", self.longest_wait_s, 0.001, 3600.0);
+        visit("healthy_after_s", self.healthy_after_s, 0.001, 86400.0);
+    }
+};
+
 /// Everything that planner.yaml can set for the daemon.
 struct DaemonConfig {
     PlannerConfig planner;
     ServerConfig server;
     RosConfig ros;
+    SupervisorConfig supervisor;
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         PlannerConfig::describe(self.planner, visit);
         visit("server", self.server);
         visit("ros", self.ros);
+        visit("supervisor", self.supervisor);
     }
 };
 

@@ -22,6 +22,7 @@ public:
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     void send_signal(int signal) const;
+    pid_t id() const { return pid_; }
 
     /// @return whether standard error came to hold the text within ten seconds
     bool wait_for_error_text(const std::string& text);

@@ -37,12 +37,13 @@ TEST(PlannerYaml, HoldsExactlyTheKeysOfThePlanner) {
     YAML::Node root = YAML::LoadFile(kFile.string());
     root.remove("server");  // the daemon's, which has a test of its own
     root.remove("ros");     // likewise
+    root.remove("supervisor");
     collect_keys(root, "", found);
     EXPECT_EQ(found, expected);
 }
 
 TEST(PlannerYaml, HoldsTheDefaultsAndEveryOneIsInItsRange) {
-    const auto loaded = load_config<PlannerConfig>(kFile, {}, {"server", "ros"});
+    const auto loaded = load_config<PlannerConfig>(kFile, {}, {"server", "ros", "supervisor"});
     ASSERT_TRUE(loaded.ok()) << loaded.error().detail;
     EXPECT_EQ(print_config(loaded.value()), print_config(PlannerConfig{}));
 }

@@ -23,7 +23,9 @@ TEST(DaemonConfig, PlannerYamlHoldsEveryDefault) {
     const std::string text(std::istreambuf_iterator<char>(stream), {});
     ServerConfig config;
     RosConfig ros;
-    for (const auto& settings : {config_detail::collect(config), config_detail::collect(ros)}) {
+    SupervisorConfig supervisor;
+    for (const auto& settings : {config_detail::collect(config), config_detail::collect(ros),
+                                 config_detail::collect(supervisor)}) {
         for (const auto& setting : settings) {
             EXPECT_THAT(text, HasSubstr("\n  " + setting.path.back() + ": "));
         }
