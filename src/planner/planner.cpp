@@ -150,6 +150,9 @@ PlanReply plan_to_the_end(const PlanRequest& request, const PlannerConfig& confi
     const auto object = prepare_object(request.object_O, config, answer.log);
     if (!object) return answer.refuse(object.error());
     answer.reply.report.findings = object.value().findings;
+    const auto units = guess_units(object.value().size_m, request.grippers, config.guess_units);
+    if (!units) return answer.refuse(units.error());
+    if (units.value()) answer.reply.report.findings.push_back(*units.value());
 
     Scene scene(request, object.value());
     const auto found = find_grasps(request, scene, config, answer.log);

@@ -76,9 +76,8 @@ Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointClou
     PreparedObject object;
     const auto soup = surface_of(object_O, config, log, object.findings);
     if (!soup) return soup.error();
-    const auto closed = log.run("mesh/condition_mesh", soup.value().faces.size(), [&] {
-        return condition_mesh(soup.value(), config.condition_mesh);
-    });
+    const auto closed = log.run("mesh/condition_mesh", soup.value().faces.size(),
+                          [&] { return condition_mesh(soup.value(), config.condition_mesh); });
     if (!closed) return closed.error();
     const ConditionedMesh& solid = closed.value();
     log.out("mesh/condition_mesh", solid.mesh.faces.size());
@@ -92,6 +91,9 @@ Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointClou
     object.X_OP = frame.value();
     stop_point();
     object.mesh_P = transformed(object.X_OP.inverse(), solid.mesh);
+    Eigen::AlignedBox3d box_P;
+    for (const Eigen::Vector3d& vertex : object.mesh_P.vertices) box_P.extend(vertex);
+    object.size_m = box_P.sizes();
     object.center_of_mass_P = object.X_OP.inverse() * solid.center_of_mass;
 
     stop_point();

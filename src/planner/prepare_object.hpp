@@ -19,6 +19,7 @@ struct PreparedObject {
     std::shared_ptr<const TriangleBvh> tree_P;  ///< over mesh_P
     OuterHull hull_P;
     ConcavityField field;                                        ///< per vertex of mesh_P
+    Eigen::Vector3d size_m = Eigen::Vector3d::Zero();            ///< [m] along the axes of P
     double volume_m3 = 0.0;                                      ///< [m^3]
     Eigen::Vector3d center_of_mass_P = Eigen::Vector3d::Zero();  ///< [m] uniform density
     std::vector<Finding> findings;

@@ -17,6 +17,7 @@
 #include "graspd/mesh/condition_mesh.hpp"
 #include "graspd/mesh/sample_surface.hpp"
 #include "graspd/mesh/triangulate_cloud.hpp"
+#include "graspd/planner/guess_units.hpp"
 #include "graspd/planner/search_config.hpp"
 #include "graspd/planner/suggest_config.hpp"
 #include "graspd/regions/cluster_concavities.hpp"
@@ -29,6 +30,7 @@ namespace graspd {
 struct PlannerConfig {
     TriangulateCloudConfig triangulate_cloud;
     ConditionMeshConfig condition_mesh;
+    GuessUnitsConfig guess_units;
     VertexConcavityConfig vertex_concavity;
     ConcavityConfig shortest_path_concavity;
     TetrahedralConfig tetrahedral_concavity;
@@ -56,6 +58,7 @@ struct PlannerConfig {
     static void describe(Self& self, Visitor&& visit) {
         visit("triangulate_cloud", self.triangulate_cloud);
         visit("condition_mesh", self.condition_mesh);
+        visit("guess_units", self.guess_units);
         visit("vertex_concavity", self.vertex_concavity);
         visit("shortest_path_concavity", self.shortest_path_concavity);
         visit("tetrahedral_concavity", self.tetrahedral_concavity);
