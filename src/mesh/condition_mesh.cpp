@@ -9,6 +9,7 @@
 #include "alpha_wrap.hpp"
 #include "clean_faces.hpp"
 #include "fill_holes.hpp"
+#include "floating_parts.hpp"
 #include "graspd/base/settings.hpp"
 #include "graspd/base/stop.hpp"
 #include "mesh_edges.hpp"
@@ -252,6 +253,10 @@ Result<ConditionedMesh> condition_mesh(const TriangleMesh& soup,
     result.mesh = std::move(clean.mesh);
     result.vertex_of_input = std::move(clean.vertex_of_input);
     if (auto bad = close_or_wrap(clean.edges, diagonal_m, config, result)) return *bad;
+    const auto pieces = std::ranges::find(result.findings, "components", &Finding::code);
+    if (pieces->value > 1.0) {
+        if (auto apart = find_floating_parts(result.mesh)) result.findings.push_back(*apart);
+    }
     return result;
 }
 

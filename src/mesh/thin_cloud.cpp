@@ -161,4 +161,18 @@ ThinnedCloud thin_cloud(const std::vector<Eigen::Vector3d>& cloud, std::size_t m
     return result;
 }
 
+void keep_points(const std::vector<char>& keep, ThinnedCloud& cloud) {
+    std::vector<std::int32_t> place(keep.size(), -1);
+    std::vector<Eigen::Vector3d> kept;
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (!keep[i]) continue;
+        place[i] = static_cast<std::int32_t>(kept.size());
+        kept.push_back(cloud.points[i]);
+    }
+    for (std::int32_t& index : cloud.kept_of_input) {
+        if (index >= 0) index = place[static_cast<std::size_t>(index)];
+    }
+    cloud.points = std::move(kept);
+}
+
 }  // namespace graspd::mesh_detail

@@ -26,4 +26,7 @@ struct ThinnedCloud {
 /// Complexity O(N log N).
 ThinnedCloud thin_cloud(const std::vector<Eigen::Vector3d>& cloud, std::size_t max_points);
 
+/// Drops the points whose entry in `keep` is 0.
+void keep_points(const std::vector<char>& keep, ThinnedCloud& cloud);
+
 }  // namespace graspd::mesh_detail

@@ -8,7 +8,9 @@
 #include <Eigen/Eigenvalues>
 
 #include "cloud_surface.hpp"
+#include "drop_outliers.hpp"
 #include "graspd/base/settings.hpp"
+#include "surface_deviation.hpp"
 #include "thin_cloud.hpp"
 
 namespace graspd {
@@ -19,6 +21,7 @@ using namespace mesh_detail;
 constexpr std::size_t kLeastPoints = 10;
 // Thinner clouds are flat up to the rounding of float coordinates [1] of the diagonal.
 constexpr double kLeastThickness = 1e-6;
+constexpr double kLeastReach = 4e-6;  // [1] of the diagonal: a grid's cell
 
 template <class... Parts>
 PlanError error(PlanErrorCode code, const Parts&... parts) {
@@ -81,31 +84,67 @@ std::size_t count_unused(const TriangleMesh& mesh) {
     return static_cast<std::size_t>(std::ranges::count(used, 0));
 }
 
-Result<TriangulatedCloud> triangulate(ThinnedCloud cloud, const TriangulateCloudConfig& config) {
+/// Points of about unit size, and what undoes it.
+struct UnitCloud {
+    std::vector<Eigen::Vector3d> points;
+    double diagonal_m = 0.0;
+    double spacing = 0.0;  ///< [1] median, in diagonals
+};
+
+Result<UnitCloud> to_unit_cloud(const std::vector<Eigen::Vector3d>& points) {
     Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& point : cloud.points) box.extend(point);
-    const double diagonal_m = box.diagonal().norm();
-    const std::vector<Eigen::Vector3d> unit = to_unit(cloud.points, box);
-    const double thick = thickness(unit);
+    for (const Eigen::Vector3d& point : points) box.extend(point);
+    UnitCloud unit{to_unit(points, box), box.diagonal().norm(), 0.0};
+    const double thick = thickness(unit.points);
     if (thick < kLeastThickness) {
-        return error(PlanErrorCode::kDegenerate, "cloud of ", unit.size(),
-                     " points is flat: its thickness over its diagonal ", diagonal_m, " m is ",
+        return error(PlanErrorCode::kDegenerate, "cloud of ", points.size(),
+                     " points is flat: its thickness over its diagonal ", unit.diagonal_m, " m is ",
                      thick, ", least ", kLeastThickness);
     }
-    const Result<double> spacing = median_spacing(unit);
+    const Result<double> spacing = median_spacing(unit.points);
     if (!spacing) return spacing.error();
-    auto faces = config.greedy_projection ? project_greedily(unit, spacing.value(), config)
-                                          : advance_front(unit);
-    if (!faces) return faces.error();
-    if (faces.value().empty()) {
-        return error(PlanErrorCode::kDegenerate, "no triangle came of the cloud's ", unit.size(),
-                     " points");
+    unit.spacing = spacing.value();
+    return unit;
+}
+
+/// Drops what the sensor left in the air. @return the unit cloud of what is left
+Result<UnitCloud> drop_outliers(ThinnedCloud& cloud, UnitCloud unit,
+                                const TriangulateCloudConfig& config,
+                                std::vector<Finding>& findings) {
+    if (config.outlier_spacings <= 0.0) return unit;
+    const double reach = std::max(config.outlier_spacings * unit.spacing, kLeastReach);
+    const Outliers outliers = find_outliers(unit.points, reach, config.outlier_group);
+    if (outliers.count == 0) return unit;
+    keep_points(outliers.keep, cloud);
+    if (cloud.points.size() < kLeastPoints) {
+        return error(PlanErrorCode::kInvalidInput, "cloud has ", cloud.points.size(),
+                     " points that hang together, at least ", kLeastPoints, " are needed");
     }
+    std::ostringstream text;
+    text << outliers.count << " points in groups of fewer than " << config.outlier_group
+         << " that keep " << reach * unit.diagonal_m << " m from all others were dropped";
+    findings.push_back({"outliers_removed", static_cast<double>(outliers.count), text.str()});
+    return to_unit_cloud(cloud.points);
+}
+
+Result<TriangulatedCloud> triangulate(ThinnedCloud cloud, const TriangulateCloudConfig& config) {
     TriangulatedCloud result;
     result.findings = findings_of(cloud);
+    auto whole = to_unit_cloud(cloud.points);
+    if (!whole) return whole.error();
+    const auto unit = drop_outliers(cloud, std::move(whole).value(), config, result.findings);
+    if (!unit) return unit.error();
+    const std::vector<Eigen::Vector3d>& points = unit.value().points;
+    auto faces = config.greedy_projection ? project_greedily(points, unit.value().spacing, config)
+                                          : advance_front(points);
+    if (!faces) return faces.error();
+    if (faces.value().empty()) {
+        return error(PlanErrorCode::kDegenerate, "no triangle came of the cloud's ", points.size(),
+                     " points");
+    }
     result.mesh = {std::move(cloud.points), std::move(faces).value()};
     result.vertex_of_point = std::move(cloud.kept_of_input);
-    result.spacing_m = spacing.value() * diagonal_m;
+    result.spacing_m = unit.value().spacing * unit.value().diagonal_m;
     if (const std::size_t unused = count_unused(result.mesh)) {
         result.findings.push_back({"points_unused", static_cast<double>(unused),
                                    std::to_string(unused) + " points belong to no triangle"});
@@ -135,7 +174,11 @@ Result<TriangulatedCloud> triangulate_cloud(const PointCloud& cloud,
                      " finite distinct points of ", cloud.points.size(), ", at least ",
                      kLeastPoints, " are needed");
     }
-    return triangulate(std::move(thinned), config);
+    auto surface = triangulate(std::move(thinned), config);
+    if (!surface) return surface.error();
+    surface.value().findings.push_back(
+        measure_deviation(cloud.points, surface.value().mesh, surface.value().vertex_of_point));
+    return surface;
 }
 
 }  // namespace graspd

@@ -186,7 +186,9 @@ std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O
         add(mesh->vertices);
         add(mesh->faces);
     } else {
-        add(std::get<PointCloud>(object_O).points);
+        const auto& cloud = std::get<PointCloud>(object_O);
+        add(cloud.points);
+        if (cloud.sensor_origin) add(std::vector<Eigen::Vector3d>{*cloud.sensor_origin});
     }
     return to_hex(hash);
 }

@@ -76,9 +76,14 @@ Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointClou
     PreparedObject object;
     const auto soup = surface_of(object_O, config, log, object.findings);
     if (!soup) return soup.error();
-    const auto closed = log.run("mesh/condition_mesh", soup.value().faces.size(),
+    auto closed = log.run("mesh/condition_mesh", soup.value().faces.size(),
                           [&] { return condition_mesh(soup.value(), config.condition_mesh); });
     if (!closed) return closed.error();
+    if (const auto* cloud = std::get_if<PointCloud>(&object_O)) {
+        closed = face_sensor(std::move(closed).value(), cloud->sensor_origin, config.condition_mesh,
+                             config.face_sensor);
+        if (!closed) return closed.error();
+    }
     const ConditionedMesh& solid = closed.value();
     log.out("mesh/condition_mesh", solid.mesh.faces.size());
     object.findings.insert(object.findings.end(), solid.findings.begin(), solid.findings.end());

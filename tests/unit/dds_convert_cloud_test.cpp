@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <functional>
 
 #include "convert_request.hpp"
@@ -64,6 +66,32 @@ TEST(ConvertCloud, ReadsEitherByteOrderMixedTypesAndPadding) {
         EXPECT_THAT(points, ElementsAre(Eigen::Vector3d(1, 0.5, 0), Eigen::Vector3d(2, 0.5, -1),
                                         Eigen::Vector3d(1, 1.5, -2), Eigen::Vector3d(2, 1.5, -3)));
     }
+}
+
+// What an organised camera cloud did not measure stays NaN, at its place in the grid.
+TEST(ConvertCloud, KeepsPointsThatWereNotMeasured) {
+    PointCloud2_ cloud = camera_cloud(false);
+    const auto nan = std::bit_cast<std::array<std::uint8_t, 4>>(std::nanf(""));
+    std::ranges::copy(nan, cloud.data().begin() + 20 + 8);  // x of row 0, column 1
+    cloud.is_dense(false);
+    FirstError errors;
+    const auto points = read_cloud(cloud, "cloud", errors);
+    ASSERT_FALSE(errors.any());
+    ASSERT_EQ(points.size(), 4u);
+    EXPECT_TRUE(std::isnan(points[1].x()));
+    EXPECT_EQ(points[1].y(), 0.5);
+    EXPECT_EQ(points[3], Eigen::Vector3d(2, 1.5, -3));
+}
+
+// The sensor origin is given in O, as the cloud is, and reaches the planner as it is.
+TEST(ConvertCloud, SensorOriginReachesTheCloud) {
+    PlanRequest request = test::small_request();
+    request.object_O = PointCloud{{{1, 2, 3}}, Eigen::Vector3d(0.25, -0.5, 1)};
+    const auto read = read_request(write_request(request, "").value(), {});
+    ASSERT_TRUE(read.ok()) << read.error().detail;
+    const auto& cloud = std::get<PointCloud>(read.value().object_O);
+    ASSERT_TRUE(cloud.sensor_origin.has_value());
+    EXPECT_EQ(*cloud.sensor_origin, Eigen::Vector3d(0.25, -0.5, 1));
 }
 
 TEST(ConvertCloud, EmptyMeansNoPointsAndNoData) {

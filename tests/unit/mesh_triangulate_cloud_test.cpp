@@ -9,30 +9,19 @@
 #include <random>
 
 #include "graspd/mesh/condition_mesh.hpp"
+#include "support/clouds.hpp"
 #include "support/shapes.hpp"
 
 namespace graspd {
 namespace {
 
+using test::spiral_sphere;
 using testing::HasSubstr;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 PointCloud cloud_of(const TriangleMesh& mesh) {
     return {mesh.vertices, {}};
-}
-
-/// Points on a sphere at nearly equal distances: a spiral from pole to pole in golden-angle steps.
-PointCloud spiral_sphere(double radius_m, int count) {
-    PointCloud cloud;
-    const double golden_rad = std::numbers::pi * (3.0 - std::sqrt(5.0));
-    for (int i = 0; i < count; ++i) {
-        const double z = 1.0 - (2.0 * i + 1.0) / count;
-        const double r = std::sqrt(1.0 - z * z);
-        cloud.points.push_back(radius_m * Eigen::Vector3d(r * std::cos(golden_rad * i),
-                                                          r * std::sin(golden_rad * i), z));
-    }
-    return cloud;
 }
 
 TriangulatedCloud triangulated(const PointCloud& cloud, const TriangulateCloudConfig& config = {}) {

@@ -49,7 +49,8 @@ struct ConditionedMesh {
 /// component outward by its signed volume. Nothing is changed without a finding:
 /// vertices_welded, degenerate_faces_dropped, duplicate_faces_dropped, vertices_unreferenced,
 /// faces_flipped, holes_filled (value = loops; detail with the filled share of the area),
-/// components_inverted, non_manifold_edges, components.
+/// components_inverted, non_manifold_edges, components, floating_parts (kept; value = parts that
+/// stand apart from the largest; detail with the widest gap).
 ///
 /// What is closed so but still has no outside is wrapped instead (CGAL's alpha wrap, a surface at
 /// wrap_offset from all faces) and named by the finding alpha_wrapped (value = alpha [m]; detail

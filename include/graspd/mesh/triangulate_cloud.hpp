@@ -16,7 +16,10 @@ struct TriangulateCloudConfig {
     std::uint32_t limit_points = 5000000;  ///< more are refused
     std::uint32_t normal_neighbours = 16;  ///< of the normal estimate (greedy projection)
     double radius_spacings = 5.0;          ///< [1] greedy search radius in median point spacings
-    double mu = 2.5;  ///< [1] greedy: neighbour distance over the nearest one's
+    double mu = 2.5;                   ///< [1] greedy: neighbour distance over the nearest one's
+    double outlier_spacings = 5.0;     ///< [1] groups of points farther apart than so many median
+                                       ///< spacings; 0: nothing is an outlier
+    std::uint32_t outlier_group = 10;  ///< a group with fewer points is dropped
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
@@ -26,6 +29,8 @@ struct TriangulateCloudConfig {
         visit("normal_neighbours", self.normal_neighbours, 3u, 200u);
         visit("radius_spacings", self.radius_spacings, 1.0, 100.0);
         visit("mu", self.mu, 1.0, 10.0);
+        visit("outlier_spacings", self.outlier_spacings, 0.0, 1000.0);
+        visit("outlier_group", self.outlier_group, 1u, 1000u);
     }
 };
 
@@ -36,7 +41,9 @@ struct TriangulatedCloud {
     std::vector<std::int32_t> vertex_of_point;  ///< per input point: the mesh vertex that stands
                                                 ///< for it, or -1 (dropped)
     double spacing_m = 0.0;                     ///< [m] median distance to the nearest neighbour
-    /// points_not_finite, points_duplicate, points_thinned, points_unused (in no triangle)
+    /// points_not_finite, points_duplicate, points_thinned, outliers_removed, points_unused (in no
+    /// triangle), and always surface_deviation: the greatest distance [m] of the points, outliers
+    /// aside, from the mesh
     std::vector<Finding> findings;
 };
 

@@ -15,6 +15,7 @@
 #include "graspd/grasp/score_grasp.hpp"
 #include "graspd/grasp/step_points.hpp"
 #include "graspd/mesh/condition_mesh.hpp"
+#include "graspd/mesh/face_sensor.hpp"
 #include "graspd/mesh/sample_surface.hpp"
 #include "graspd/mesh/triangulate_cloud.hpp"
 #include "graspd/planner/guess_units.hpp"
@@ -30,6 +31,7 @@ namespace graspd {
 struct PlannerConfig {
     TriangulateCloudConfig triangulate_cloud;
     ConditionMeshConfig condition_mesh;
+    FaceSensorConfig face_sensor;
     GuessUnitsConfig guess_units;
     VertexConcavityConfig vertex_concavity;
     ConcavityConfig shortest_path_concavity;
@@ -58,6 +60,7 @@ struct PlannerConfig {
     static void describe(Self& self, Visitor&& visit) {
         visit("triangulate_cloud", self.triangulate_cloud);
         visit("condition_mesh", self.condition_mesh);
+        visit("face_sensor", self.face_sensor);
         visit("guess_units", self.guess_units);
         visit("vertex_concavity", self.vertex_concavity);
         visit("shortest_path_concavity", self.shortest_path_concavity);
