@@ -52,6 +52,11 @@ int run_status(const DdsArguments& dds, const OutputArguments& output);
 int run_concavity(const ObjectArguments& object, const std::string& method,
                   const std::string& config_file, const OutputArguments& output);
 
+/// Says what is wrong with a file's mesh or cloud, what the planner repairs, and what would help.
+/// @return kExitOk when it can be planned for, kExitUsage when it is refused
+int run_doctor(const ObjectArguments& object, const std::string& gripper_name,
+               const std::string& config_file, const OutputArguments& output);
+
 /// Lists the known grippers.
 int run_grippers(const OutputArguments& output);
 

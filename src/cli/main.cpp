@@ -34,6 +34,11 @@ void add_object(CLI::App& command, Arguments& to) {
         ->excludes(scale);
 }
 
+void add_sensor(CLI::App& command, Arguments& to) {
+    command.add_option("--sensor", to.plan.object.sensor,
+                       "X,Y,Z [m]: where the sensor of a one-sided cloud stood");
+}
+
 void add_output(CLI::App& command, Arguments& to) {
     command.add_option("--out", to.output.out, "write the result to this file");
 }
@@ -51,6 +56,7 @@ void add_config(CLI::App& command, Arguments& to) {
 void add_plan(CLI::App& command, Arguments& to) {
     add_object(command, to);
     add_format(command, to);
+    add_sensor(command, to);
     command.add_option("--gripper", to.plan.gripper, "name of a profile, or a .yaml file");
     command.add_option("--top", to.plan.top, "most grasps")->check(CLI::Range(1u, 1000000u));
     command.add_option("--time-budget", to.plan.time_budget_ms, "[ms]")->check(CLI::PositiveNumber);
@@ -72,6 +78,12 @@ void add_plan_here(CLI::App& command, Arguments& to) {
     add_config(command, to);
     command.add_option("--concavity", to.plan.concavity, "how concavity is computed")
         ->check(CLI::IsMember(kMethods));
+    auto* scene = command.add_flag("--scene", to.plan.scene,
+                                   "FILE is a cloud of a table: plan for what stands on it");
+    command
+        .add_option("--object-at", to.plan.object_at,
+                    "X,Y,Z [m]: the object of the scene that is nearest; default: the best one")
+        ->needs(scene);
 }
 
 void add_simulate(CLI::App& app, Arguments& to, std::function<int()>& run) {
@@ -115,6 +127,21 @@ void add_request(CLI::App& app, Arguments& to, std::function<int()>& run) {
 }
 #endif
 
+void add_doctor(CLI::App& app, Arguments& to, std::function<int()>& run) {
+    auto* doctor =
+        app.add_subcommand("doctor", "what is wrong with a mesh or cloud, what was repaired");
+    add_object(*doctor, to);
+    add_format(*doctor, to);
+    add_config(*doctor, to);
+    add_sensor(*doctor, to);
+    doctor->add_option("--gripper", to.plan.gripper, "name of a profile, or a file");
+    doctor->callback([&] {
+        run = [&] {
+            return run_doctor(to.plan.object, to.plan.gripper, to.config_file, to.output);
+        };
+    });
+}
+
 /// Adds the subcommands; each sets `run` to what it stands for.
 void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* plan = app.add_subcommand("plan", "plan grasps in this process");
@@ -136,6 +163,7 @@ void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
         run = [&] { return run_concavity(to.plan.object, to.method, to.config_file, to.output); };
     });
 
+    add_doctor(app, to, run);
     auto* grippers = app.add_subcommand("grippers", "list the known grippers");
     add_format(*grippers, to);
     grippers->callback([&] { run = [&] { return run_grippers(to.output); }; });

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "graspd/config/load_gripper.hpp"
-#include "graspd/mesh/read_object.hpp"
 
 namespace graspd::cli {
 namespace {
@@ -43,22 +42,50 @@ SupportPlane plane_under(const std::variant<TriangleMesh, PointCloud>& object,
     return {up, std::isfinite(lowest) ? lowest : 0.0};
 }
 
-}  // namespace
-
-Result<Eigen::Vector3d> parse_direction(const std::string& option, const std::string& text) {
-    const PlanError error = wrong(option, text, "none or X,Y,Z, such as 0,0,1");
+/// Three numbers between commas.
+std::optional<Eigen::Vector3d> parse_triple(const std::string& text) {
     const auto parts = split(text);
-    if (parts.size() != 3) return error;
-    Eigen::Vector3d direction;
+    if (parts.size() != 3) return std::nullopt;
+    Eigen::Vector3d triple;
     for (Eigen::Index i = 0; i < 3; ++i) {
         const std::string& part = parts[static_cast<std::size_t>(i)];
         const char* end = part.data() + part.size();
-        const auto got = std::from_chars(part.data(), end, direction[i]);
-        if (got.ec != std::errc{} || got.ptr != end) return error;
+        const auto got = std::from_chars(part.data(), end, triple[i]);
+        if (got.ec != std::errc{} || got.ptr != end) return std::nullopt;
     }
-    const double length = direction.norm();
-    if (!std::isfinite(length) || length <= 0.0) return error;
-    return Eigen::Vector3d(direction / length);
+    return triple;
+}
+
+}  // namespace
+
+Result<Eigen::Vector3d> parse_direction(const std::string& option, const std::string& text) {
+    const auto triple = parse_triple(text);
+    const double length = triple ? triple->norm() : 0.0;
+    if (!std::isfinite(length) || length <= 0.0) {
+        return wrong(option, text, "none or X,Y,Z, such as 0,0,1");
+    }
+    return Eigen::Vector3d(*triple / length);
+}
+
+Result<Eigen::Vector3d> parse_place(const std::string& option, const std::string& text) {
+    const auto place = parse_triple(text);
+    if (place && place->allFinite()) return *place;
+    return wrong(option, text, "X,Y,Z in metres, such as 0,0,0.5");
+}
+
+Result<ObjectFile> read_object_file(const ObjectArguments& arguments) {
+    auto file = read_object(arguments.file, arguments.scale);
+    if (!file.ok()) return file;
+    auto* cloud = std::get_if<PointCloud>(&file.value().object);
+    if (cloud != nullptr) {  // triangulate_cloud finds them again
+        std::erase_if(file.value().findings,
+                      [](const Finding& f) { return f.code == "points_not_finite"; });
+    }
+    if (arguments.sensor.empty()) return file;
+    const auto sensor = parse_place("--sensor", arguments.sensor);
+    if (!sensor.ok()) return sensor.error();
+    if (cloud != nullptr) cloud->sensor_origin = sensor.value();
+    return file;
 }
 
 Result<std::uint8_t> parse_sources(const std::string& text) {
@@ -77,13 +104,15 @@ Result<std::uint8_t> parse_sources(const std::string& text) {
 }
 
 Result<PlanRequest> make_request(const PlanArguments& arguments,
-                                 const std::filesystem::path& profiles) {
+                                 const std::filesystem::path& profiles,
+                                 std::vector<Finding>* findings) {
     auto sources = parse_sources(arguments.sources);
     if (!sources.ok()) return sources.error();
     auto gripper = find_gripper(arguments.gripper, profiles / "grippers");
     if (!gripper.ok()) return gripper.error();
-    auto object = read_object(arguments.object.file, arguments.object.scale);
+    auto object = read_object_file(arguments.object);
     if (!object.ok()) return object.error();
+    if (findings != nullptr) *findings = std::move(object.value().findings);
 
     PlanRequest request;
     request.request_id = arguments.request_id.empty()
@@ -98,7 +127,7 @@ Result<PlanRequest> make_request(const PlanArguments& arguments,
         request.support_plane = plane_under(request.object_O, up.value());
     }
     // A file's z is up unless somebody says otherwise.
-    const bool by_default = arguments.gravity.empty() && !request.support_plane;
+    const bool by_default = arguments.gravity.empty() && !request.support_plane && !arguments.scene;
     const std::string gravity = by_default ? "0,0,-1" : arguments.gravity;
     if (!gravity.empty() && gravity != "none") {
         const auto down = parse_direction("--gravity", gravity);

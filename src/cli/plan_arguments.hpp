@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "graspd/mesh/read_object.hpp"
 #include "graspd/planner/plan_types.hpp"
 #include "graspd/planner/planner_config.hpp"
 
@@ -14,6 +15,7 @@ namespace graspd::cli {
 struct ObjectArguments {
     std::string file;
     double scale = 1.0;  ///< factor on every coordinate
+    std::string sensor;  ///< "X,Y,Z" [m] where a cloud's sensor stood; empty: as the file says
 };
 
 /// What `plan` and `request` take from the command line, in the words of a person at a shell.
@@ -31,6 +33,8 @@ struct PlanArguments {
     std::uint64_t seed = 0;
     std::string frame_id = "object";
     std::string request_id;  ///< empty: the file's stem
+    bool scene = false;      ///< FILE is a cloud of a plane and what stands on it
+    std::string object_at;   ///< "X,Y,Z" [m] which object of the scene; empty: the best one
 };
 
 /// Where the result goes and in which form.
@@ -40,11 +44,20 @@ struct OutputArguments {
     std::string report;            ///< directory for the whole report; empty: none
 };
 
+/// Reads the object; --sensor takes the place of what the file says.
+/// @return read_object's error, or kInvalidInput for --sensor
+Result<ObjectFile> read_object_file(const ObjectArguments& arguments);
+
 /// Reads the object, finds the gripper and makes the request; frame F is the file's own.
 /// With `up` the object stands on the plane that is normal to it and touches its lowest point.
 /// @return the first wrong argument, named as on the command line
+/// @param findings  of the file's reader are added when given
 Result<PlanRequest> make_request(const PlanArguments& arguments,
-                                 const std::filesystem::path& profiles);
+                                 const std::filesystem::path& profiles,
+                                 std::vector<Finding>* findings = nullptr);
+
+/// "x,y,z" as a point. @return kInvalidInput, naming the option
+Result<Eigen::Vector3d> parse_place(const std::string& option, const std::string& text);
 
 /// "x,y,z" as a unit vector. @return kInvalidInput, naming the option, for anything else, or a zero
 /// or non-finite one

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "close_object.hpp"
 #include "commands.hpp"
 #include "exit_code.hpp"
 #include "graspd/mesh/principal_frame.hpp"
@@ -19,17 +20,6 @@ constexpr double kFrameInterval_s = 0.08;  // 12.5 pictures a second; GIF counts
 
 bool draws(const SimulateArguments& arguments) {
     return !arguments.frames.empty() || !arguments.gif.empty();
-}
-
-/// The closed mesh that the planner made of the object too.
-Result<ConditionedMesh> solid_mesh(const ProcessPlan& plan) {
-    const auto& object = plan.request.object_O;
-    const auto* mesh = std::get_if<TriangleMesh>(&object);
-    if (mesh != nullptr) return condition_mesh(*mesh, plan.config.condition_mesh);
-    const auto surface =
-        triangulate_cloud(std::get<PointCloud>(object), plan.config.triangulate_cloud);
-    if (!surface.ok()) return surface.error();
-    return condition_mesh(surface.value().mesh, plan.config.condition_mesh);
 }
 
 const Gripper& gripper_of(const ProcessPlan& plan, const Grasp& grasp) {
@@ -96,15 +86,17 @@ int run_simulate(const PlanArguments& arguments, const std::string& config_file,
                      "--rank = " + std::to_string(simulate.rank) + " must be at most " +
                          std::to_string(plan.reply.grasps.size()) + ", the number of grasps"});
     }
-    const auto solid = solid_mesh(plan);
-    if (!solid.ok()) return fail(solid.error());
-    const TriangleMesh mesh_F = transformed(plan.request.X_FO, solid.value().mesh);
+    std::vector<Finding> reported;  // by the plan already
+    const auto closed = close_object(plan.request.object_O, plan.config, reported);
+    if (!closed.ok()) return fail(closed.error());
+    const ConditionedMesh& solid = closed.value().solid;
+    const TriangleMesh mesh_F = transformed(plan.request.X_FO, solid.mesh);
 
     SimulationRun run;
     run.rank = simulate.rank;
     run.config.friction = plan.request.options.friction;
     run.config.grip_force_N = plan.request.options.grip_force_N;
-    run.config.mass_kg = object_mass_kg(plan.request.options, solid.value().volume_m3);
+    run.config.mass_kg = object_mass_kg(plan.request.options, solid.volume_m3);
     if (const auto& down_F = plan.request.options.gravity_F) run.config.up_F = -*down_F;
     run.config.frame_interval_s = draws(simulate) ? kFrameInterval_s : 0.0;
     const Grasp& grasp = plan.reply.grasps[run.rank - 1];
