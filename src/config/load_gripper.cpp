@@ -106,8 +106,8 @@ bool is_word(const std::string& name) {
 Result<Gripper> load_dimensions(const std::filesystem::path& file, const YAML::Node& root) {
     Gripper gripper;
     const auto settings = gripper_settings(gripper);
-    if (auto error =
-            config_detail::assign_yaml(file, root, settings, {"pad_travel", "convex_parts"})) {
+    if (auto error = config_detail::assign_yaml(file, root, settings,
+                                                {"pad_travel", "convex_parts", "moveit"})) {
         return *std::move(error);
     }
     const auto absent = std::ranges::find_if(

@@ -107,9 +107,9 @@ Result<Gripper> load_urdf_gripper(const std::filesystem::path& file, const YAML:
                                               {{"closed"}, &closed, ""},
                                               {{"pad_width"}, &gripper.pad_width_m, ""},
                                               {{"pad_height"}, &gripper.pad_height_m, ""}};
-    if (auto error =
-            assign_yaml(file, root, settings,
-                        {"palm_links", "left_links", "right_links", "left_pad", "right_pad"})) {
+    if (auto error = assign_yaml(
+            file, root, settings,
+            {"palm_links", "left_links", "right_links", "left_pad", "right_pad", "moveit"})) {
         return *std::move(error);
     }
     for (const char* key : {"name", "mount_link", "driver_joint", "pad_width", "pad_height"}) {

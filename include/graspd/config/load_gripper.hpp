@@ -21,7 +21,7 @@ namespace graspd {
 /// others mimic it), palm_links, left_links, right_links, left_pad and right_pad {link, point: the
 /// middle of the pad's face} [m], pad_width, pad_height [m]; optional open and closed, the driver's
 /// positions (default: its lower and upper limit). Which finger is left is free: Gx runs from
-/// left_pad to right_pad.
+/// left_pad to right_pad. The group `moveit` is load_moveit_hand()'s.
 ///
 /// @return kUnreadableFile when it cannot be opened or is not YAML; kInvalidInput naming file, key
 ///         and value for a missing, unknown or repeated key, a wrong type, or what validate() says
