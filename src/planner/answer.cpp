@@ -16,6 +16,7 @@ PlanStatus status_of(PlanErrorCode code) {
 
 std::string strategy_of(const std::vector<Grasp>& grasps) {
     if (grasps.empty()) return "";
+    if (grasps.front().source == kCandidate) return "candidates";
     const auto whole = std::ranges::count(grasps, kWholeObject, &Grasp::source);
     if (whole == 0) return "concavity";
     return whole == std::ssize(grasps) ? "whole_object" : "mixed";

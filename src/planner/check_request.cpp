@@ -124,6 +124,10 @@ std::optional<PlanError> check_request(const PlanRequest& request) {
         }
     }
     if (auto bad = check_pose("object_pose", request.X_FO)) return bad;
+    for (std::size_t i = 0; i < request.candidates_FH.size(); ++i) {
+        const std::string field = "candidates[" + std::to_string(i) + "]";
+        if (auto bad = check_pose(field, request.candidates_FH[i])) return bad;
+    }
     if (auto bad = check_options(request.options)) return bad;
     return check_surroundings(request);
 }

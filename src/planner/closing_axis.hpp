@@ -23,6 +23,7 @@ struct ClosingAxis {
     GraspSource source = kBoundary;
     std::int32_t concavity = -1;  ///< index of the region, deepest first; -1: none
     double depth_m = 0.0;         ///< [m] of that region
+    std::int32_t candidate = -1;  ///< index in the request's candidates; -1: none
 };
 
 /// The axis on which a hand at X_PG, its pads so far apart, closes; its reference is the hand's own

@@ -23,6 +23,7 @@ const char* to_string(GraspSource source) {
         case kWall: return "wall";
         case kWholeObject: return "whole_object";
         case kAllSources: return "all";
+        case kCandidate: return "candidate";
     }
     return "unknown";
 }

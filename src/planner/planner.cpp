@@ -8,6 +8,7 @@
 #include "graspd/base/parallel.hpp"
 #include "graspd/base/settings.hpp"
 #include "graspd/base/stop.hpp"
+#include "judge_candidates.hpp"
 #include "pose_tolerance.hpp"
 #include "search_grasps.hpp"
 #include "select_grasps.hpp"
@@ -74,13 +75,15 @@ Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const Planne
     std::vector<GradedGrasp> grasps;
     for (std::size_t i = 0; i < request.grippers.size() && !found.stopped; ++i) {
         const Gripper& gripper = request.grippers[i];
-        if (scene.seen.size() == i) {
+        const bool searches = request.candidates_FH.empty();
+        if (searches && scene.seen.size() == i) {
             auto seen = see_surface(scene.object, gripper, config, log);
             if (!seen) return seen.error();
             scene.seen.push_back(std::move(seen).value());
         }
         const Judgement judgement = judgement_of(request, scene, gripper, config);
-        auto of_gripper = search_grasps(judgement, scene.seen[i], log);
+        auto of_gripper = searches ? search_grasps(judgement, scene.seen[i], log)
+                                   : judge_candidates(judgement, log);
         std::ranges::move(of_gripper.grasps, std::back_inserter(grasps));
         found.rejections.merge(of_gripper.rejections);
         found.stopped = of_gripper.stopped;

@@ -12,13 +12,13 @@ constexpr const char* kClearance = "collision/gripper_collision";
 
 /// Ranks and keeps the best, in their order.
 Result<std::vector<GradedGrasp>> best_of(const std::vector<GradedGrasp>& grasps, std::uint32_t most,
-                                         const PlannerConfig& config, Rejections& rejections,
+                                         const RankGraspsConfig& config, Rejections& rejections,
                                          StageLog& log) {
     std::vector<RankedEntry> entries;
     entries.reserve(grasps.size());
     for (const GradedGrasp& grasp : grasps) entries.push_back(entry_of(grasp));
-    const auto ranking = log.run(kRank, entries.size(),
-                                 [&] { return rank_grasps(entries, most, config.rank_grasps); });
+    const auto ranking =
+        log.run(kRank, entries.size(), [&] { return rank_grasps(entries, most, config); });
     if (!ranking) return ranking.error();
     rejections.add("duplicate", ranking.value().duplicates);
     rejections.add("surplus", ranking.value().surplus);
@@ -86,6 +86,7 @@ Grasp in_frame_F(const GradedGrasp& graded, const PlanRequest& request, const Pl
     grasp.contacts = {placed(graded.contacts_P[0], X_FP), placed(graded.contacts_P[1], X_FP)};
     grasp.gripper_name = graded.gripper->name;
     grasp.source = graded.axis.source;
+    grasp.candidate = graded.axis.candidate;
     grasp.concavity_index = graded.axis.concavity;
     grasp.concavity_depth_m = graded.axis.depth_m;
     grasp.clearance_m = graded.evidence.clearance_m;
@@ -105,13 +106,17 @@ Result<std::vector<Grasp>> select_grasps(std::vector<GradedGrasp> grasps,
                                          const PlannerConfig& config, const Eigen::Isometry3d& X_FP,
                                          Rejections& rejections, StageLog& log) {
     const std::uint32_t wanted = request.options.max_grasps;
+    RankGraspsConfig ranking = config.rank_grasps;
+    if (!request.candidates_FH.empty()) {  // who asks about each wants to know of each
+        ranking.same_distance_finger_widths = ranking.same_angle_rad = 0.0;
+    }
     const std::size_t found = grasps.size();
     log.run(kClearance, found, [&] {
         drop_nearer(grasps, world_P, request.options.min_clearance_m, config, rejections);
         return 0;
     });
     log.out(kClearance, grasps.size());
-    auto shortlist = best_of(grasps, 2 * wanted, config, rejections, log);
+    auto shortlist = best_of(grasps, 2 * wanted, ranking, rejections, log);
     if (!shortlist) return shortlist.error();
     const double most_m = std::max(config.search.most_clearance_m, request.options.min_clearance_m);
     log.run(kClearance, 0, [&] {
@@ -123,7 +128,7 @@ Result<std::vector<Grasp>> select_grasps(std::vector<GradedGrasp> grasps,
         }
         return 0;
     });
-    const auto best = best_of(shortlist.value(), wanted, config, rejections, log);
+    const auto best = best_of(shortlist.value(), wanted, ranking, rejections, log);
     if (!best) return best.error();
     std::vector<Grasp> result;
     for (const GradedGrasp& grasp : best.value()) {

@@ -39,8 +39,9 @@ enum GraspSource : std::uint8_t {
     kWall = 2,         ///< across a wall, a finger inside a concavity
     kWholeObject = 4,  ///< anywhere on the surface, for convex bodies
     kAllSources = 7,
+    kCandidate = 8,  ///< given by the request (PlanRequest::candidates_FH), no choice
 };
-/// "boundary", "wall", "whole_object".
+/// "boundary", "wall", "whole_object", "candidate".
 const char* to_string(GraspSource source);
 
 /// A plane that carries the object: normal_F . p = offset_m, object on the normal's side.
@@ -88,6 +89,8 @@ struct PlanRequest {
     std::vector<Obstacle> obstacles;
     std::vector<ApproachCone> approach_cones;  ///< empty: every direction
     std::vector<OrientedBox> keep_out_F;       ///< boxes that no gripper part may enter
+    /// Mounting frames of hands to be judged; when there are any, nothing is searched for.
+    std::vector<Eigen::Isometry3d> candidates_FH;
     PlanOptions options;
 };
 
@@ -130,6 +133,7 @@ struct Grasp {
     double score = 0.0;                 ///< in [0, 1] = 1 / (1 + exp(-sum of terms))
     std::vector<ScoreTerm> terms;
     GraspSource source = kBoundary;
+    std::int32_t candidate = -1;             ///< index in candidates_FH; -1: found by the planner
     std::optional<PoseTolerance> tolerance;  ///< of the best few; absent where it was not measured
 };
 
@@ -171,7 +175,8 @@ struct PlanReply {
     std::string object_key;  ///< hash of the object's geometry, hexadecimal
     PlanStatus status = PlanStatus::kInternalError;
     std::string message;   ///< empty for kOk; else one sentence with the field and the value
-    std::string strategy;  ///< "concavity", "mixed", "whole_object", or empty without grasps
+    std::string strategy;  ///< "concavity", "mixed", "whole_object", "candidates", or empty
+                           ///< without grasps
     std::vector<Grasp> grasps;
     PlanReport report;
 };
