@@ -17,10 +17,18 @@ Result<WireNames> wire_names(const RosArguments& ros) {
         if (!resolved.ok()) return resolved.error();
         *to = dds_topic_name(resolved.value(), DdsTopicKind::kTopic);
     }
-    const auto service = resolve_name(ros, "graspd/plan_grasps", RosNameKind::kService);
-    if (!service.ok()) return service.error();
-    names.service_request = dds_topic_name(service.value(), DdsTopicKind::kServiceRequest);
-    names.service_reply = dds_topic_name(service.value(), DdsTopicKind::kServiceReply);
+    struct Service {
+        const char* name;
+        std::string *request, *reply;
+    };
+    for (const auto& [name, request, reply] :
+         {Service{"graspd/plan_grasps", &names.service_request, &names.service_reply},
+          Service{"plan_grasps", &names.moveit_request, &names.moveit_reply}}) {
+        const auto resolved = resolve_name(ros, name, RosNameKind::kService);
+        if (!resolved.ok()) return resolved.error();
+        *request = dds_topic_name(resolved.value(), DdsTopicKind::kServiceRequest);
+        *reply = dds_topic_name(resolved.value(), DdsTopicKind::kServiceReply);
+    }
     return names;
 }
 

@@ -23,6 +23,7 @@ struct Contract {
     std::int32_t lease_s = 0;      ///< [s] of MANUAL_BY_TOPIC liveliness; 0: none
     bool greets = false;           ///< its writer can say where it stands (reply_writer.hpp)
     bool required = false;         ///< the profile file must have it
+    bool announces_hash = true;    ///< of the type; false: the layout is not the one it is of
 };
 
 inline constexpr Contract kRequestEnds{
@@ -43,6 +44,12 @@ inline constexpr Contract kServiceReplyEnds{.profile = "/graspd/plan_graspsReply
                                             .limit = 256,
                                             .lifespan_s = 60,
                                             .greets = true};
+inline constexpr Contract kMoveItRequestEnds{.profile = "/plan_graspsRequest", .limit = 32};
+inline constexpr Contract kMoveItReplyEnds{.profile = "/plan_graspsReply",
+                                           .transient_local = true,
+                                           .limit = 256,
+                                           .lifespan_s = 60,
+                                           .greets = true};
 inline constexpr Contract kGraphEnds{
     .profile = "ros_discovery_info", .transient_local = true, .depth = 1};
 

@@ -165,7 +165,7 @@ std::optional<PlanError> Participant::check_profiles(const std::string& file) co
     };
     for (const Contract& contract :
          {kRequestEnds, kReplyEnds, kCancelEnds, kStatusEnds, kDiagnosticsEnds, kServiceRequestEnds,
-          kServiceReplyEnds, kGraphEnds}) {
+          kServiceReplyEnds, kMoveItRequestEnds, kMoveItReplyEnds, kGraphEnds}) {
         auto error = check(contract, "data_reader", fast::DataReaderQos{}, reader);
         if (!error) error = check(contract, "data_writer", fast::DataWriterQos{}, writer);
         if (error) return error;
@@ -189,7 +189,7 @@ fast::DataReader* Participant::create_reader(const TopicOf& topic,
     if (made == nullptr) return nullptr;
     fast::DataReaderQos qos = reader_qos(topic.contract);
     subscriber_->get_datareader_qos_from_profile(topic.contract.profile, qos);
-    set_type_hash(qos, topic.type.get_type_name());
+    if (topic.contract.announces_hash) set_type_hash(qos, topic.type.get_type_name());
     return subscriber_->create_datareader(made, qos, listener);
 }
 
@@ -200,7 +200,7 @@ fast::DataWriter* Participant::create_writer(const TopicOf& topic,
     fast::DataWriterQos qos = writer_qos(topic.contract);
     publisher_->get_datawriter_qos_from_profile(topic.contract.profile, qos);
     set_greeting(topic.contract, qos);
-    set_type_hash(qos, topic.type.get_type_name());
+    if (topic.contract.announces_hash) set_type_hash(qos, topic.type.get_type_name());
     return publisher_->create_datawriter(made, qos, listener);
 }
 

@@ -1,10 +1,10 @@
 #include "graspd/dds/planner_port.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <graspd_msgs/graspdPubSubTypes.h>
 
@@ -12,6 +12,7 @@
 #include "convert_state.hpp"
 #include "guarded_type.hpp"
 #include "guid_bytes.hpp"
+#include "moveit_service.hpp"
 #include "participant.hpp"
 #include "received_request.hpp"
 #include "reply_writer.hpp"
@@ -45,6 +46,11 @@ public:
           handle_gone_(std::move(gone)) {
         guard_->max_payload_bytes = settings.max_payload_bytes;
         guard_->limits = settings.limits;
+        if (settings.moveit.error_codes != MoveItCodes::kOff) {
+            moveit_ = std::make_unique<MoveItService>(
+                settings.moveit, handle_request_, [this](const auto& writer) { tell_gone(writer); },
+                guard_);
+        }
     }
     ~DdsPlannerPort() override { DdsPlannerPort::stop_listening(); }
 
@@ -63,10 +69,10 @@ public:
             *participant_,
             {names.service_reply, fast::TypeSupport(new RawType(kServiceReplyType, guard_)),
              kServiceReplyEnds});
-        const std::array writers = {reply_writer, status_writer_, diagnostics_writer_,
-                                    service_writer};
+        std::vector writers = {reply_writer, status_writer_, diagnostics_writer_, service_writer};
         if (std::ranges::count(writers, nullptr) > 0) return refused();
-        const std::array readers = {
+        if (moveit_ && !moveit_->open_writer(*participant_, names.moveit_reply)) return refused();
+        std::vector readers = {
             reader<RequestType>(names.grasp_request, kRequestEnds, request_listener_),
             reader<CancelType>(names.cancel, kCancelEnds, cancel_listener_),
             participant_->create_reader(
@@ -74,6 +80,11 @@ public:
                  kServiceRequestEnds},
                 &service_listener_)};
         if (std::ranges::count(readers, nullptr) > 0) return refused();
+        if (moveit_ && !moveit_->open_reader(*participant_, names.moveit_request)) return refused();
+        if (moveit_) {
+            writers.push_back(&moveit_->writer().writer());
+            readers.push_back(moveit_->reader());
+        }
         if (settings_.node.gid_bytes == GidBytes::kOff) return std::nullopt;
         graph_.emplace(settings_.node, readers, writers);
         return graph_->open(*participant_, guard_) ? std::nullopt : refused();
@@ -82,17 +93,7 @@ public:
     bool write(const OutgoingReply& reply) override {
         bool written = false;
         try {
-            wire::RankedGrasps_ sample = write_reply(reply.reply, envelope_of(reply));
-            const auto* request = dynamic_cast<const ReceivedRequest*>(reply.to.get());
-            const auto& caller = reply.to->identity().writer;
-            if (request != nullptr && request->call) {
-                const bool is_there = service_listener_.knows(guid_of(caller));
-                service_writer_.meet(caller, is_there ? kCallerPatience : kNoPatience);
-                written = write_service_reply(*request->call, sample, service_writer_.writer());
-            } else {
-                reply_writer_.meet(caller, {});  // somebody else may read what one asks for
-                written = reply_writer_.writer().write(&sample);
-            }
+            written = send(reply);
         } catch (...) {  // out of memory
         }
         if (!written) lost_.fetch_add(1, std::memory_order_relaxed);
@@ -113,13 +114,16 @@ public:
     void stop_listening() override {
         request_listener_.stop();
         service_listener_.stop();
+        if (moveit_) moveit_->stop();
         cancel_listener_.stop();
     }
 
     bool wait_acknowledged(std::chrono::milliseconds timeout) override {
         const auto deadline = std::chrono::steady_clock::now() + timeout;
         bool confirmed = true;
-        for (ReplyWriter* writer : {&reply_writer_, &service_writer_}) {
+        std::vector<ReplyWriter*> reply_writers = {&reply_writer_, &service_writer_};
+        if (moveit_) reply_writers.push_back(&moveit_->writer());
+        for (ReplyWriter* writer : reply_writers) {
             const std::chrono::duration<long double> rest =
                 deadline - std::chrono::steady_clock::now();
             const eprosima::fastrtps::Duration_t left(std::max(rest.count(), 0.0L));
@@ -133,6 +137,27 @@ public:
     std::uint64_t lost_replies() const override { return lost_; }
 
 private:
+    bool send(const OutgoingReply& reply) {
+        if (const auto* call = dynamic_cast<const MoveItRequest*>(reply.to.get())) {
+            return moveit_ && moveit_->write(*call, reply.reply);
+        }
+        wire::RankedGrasps_ sample = write_reply(reply.reply, envelope_of(reply));
+        const auto* request = dynamic_cast<const ReceivedRequest*>(reply.to.get());
+        const auto& caller = reply.to->identity().writer;
+        if (request == nullptr || !request->call) {
+            reply_writer_.meet(caller, {});  // somebody else may read what one asks for
+            return reply_writer_.writer().write(&sample);
+        }
+        const bool is_there = service_listener_.knows(guid_of(caller));
+        service_writer_.meet(caller, is_there ? kCallerPatience : kNoPatience);
+        // The service's response has one member, so its bytes are those of a RankedGrasps_.
+        return write_service_reply(*request->call, sample, service_writer_.writer());
+    }
+
+    void tell_gone(const eprosima::fastrtps::rtps::GUID_t& writer) {
+        if (handle_gone_) handle_gone_(bytes_of(writer));
+    }
+
     static std::optional<PlanError> refused() {
         return PlanError{PlanErrorCode::kInternal, "the middleware refused an endpoint"};
     }
@@ -208,12 +233,11 @@ private:
     // Listeners outlive the participant, which removes the endpoints.
     TakingListener request_listener_{[this](auto& from) { return take_request(from); }};
     TakingListener service_listener_{[this](auto& from) { return take_call(from); },
-                                     [this](const auto& writer) {
-                                         if (handle_gone_) handle_gone_(bytes_of(writer));
-                                     }};
+                                     [this](const auto& writer) { tell_gone(writer); }};
     TakingListener cancel_listener_{[this](auto& from) { return take_cancel(from); }};
     ReplyWriter reply_writer_;
     ReplyWriter service_writer_;
+    std::unique_ptr<MoveItService> moveit_;  ///< null: off
     std::optional<RosGraph> graph_;
     std::unique_ptr<Participant> participant_;
     fast::DataWriter* status_writer_ = nullptr;

@@ -78,41 +78,35 @@ void ReceivedRequest::complete(const eprosima::fastdds::dds::SampleInfo& info) {
     identity_.payload_hash = sample.payload_hash;
 }
 
-// The reply's message has one member, so its bytes are those of a RankedGrasps_.
-bool write_service_reply(const ServiceCall& call, const wire::RankedGrasps_& reply,
-                         eprosima::fastdds::dds::DataWriter& writer) {
-    if (call.related) {
-        Bytes payload = cdr_bytes(reply);
-        eprosima::fastrtps::rtps::WriteParams parameters;
-        parameters.related_sample_identity(*call.related);
-        return writer.write(&payload, parameters);
+std::optional<OpenedCall> open_service_call(std::span<std::uint8_t> payload,
+                                            const eprosima::fastdds::dds::SampleInfo& info) {
+    OpenedCall opened{{}, 0, payload};
+    if (info.related_sample_identity.writer_guid() != GUID_t::unknown()) {
+        auto& related = opened.call.related.emplace();
+        related.writer_guid(info.related_sample_identity.writer_guid());
+        related.sequence_number(info.sample_identity.sequence_number());
+        opened.number =
+            static_cast<std::int64_t>(info.sample_identity.sequence_number().to64long());
+        return opened;
     }
-    Bytes payload = cdr_bytes(reply, call.header);
-    return writer.write(&payload);
+    const auto header = take_service_header(opened.members);
+    if (!header) return std::nullopt;
+    opened.call.header = *header;
+    opened.number = header->sequence;
+    return opened;
 }
 
 std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
                                                    const eprosima::fastdds::dds::SampleInfo& info,
                                                    const PayloadGuard& guard) {
+    const auto opened = open_service_call(payload, info);
+    if (!opened) return nullptr;
     auto request = std::make_unique<ReceivedRequest>();
-    std::span<std::uint8_t> members = payload;
-    ServiceCall& call = request->call.emplace();
-    std::int64_t number = 0;
-    if (info.related_sample_identity.writer_guid() != GUID_t::unknown()) {
-        call.related.emplace();
-        call.related->writer_guid(info.related_sample_identity.writer_guid());
-        call.related->sequence_number(info.sample_identity.sequence_number());
-        number = static_cast<std::int64_t>(info.sample_identity.sequence_number().to64long());
-    } else {
-        const auto header = take_service_header(members);
-        if (!header) return nullptr;
-        call.header = *header;
-        number = header->sequence;
-    }
+    request->call = opened->call;
     // The request's message has one member, so its bytes are those of a GraspRequest_.
-    if (!request->sample.read(members, guard)) return nullptr;
+    if (!request->sample.read(opened->members, guard)) return nullptr;
     if (request->sample.request_id().empty()) {
-        request->sample.request_id("call-" + std::to_string(number));
+        request->sample.request_id("call-" + std::to_string(opened->number));
     }
     request->complete(info);
     return request;

@@ -60,15 +60,37 @@ private:
     RequestIdentity identity_;
 };
 
-/// Writes the reply to a service call in the way that its caller understands.
-/// @return false: not written
-bool write_service_reply(const ServiceCall& call, const wire::RankedGrasps_& reply,
-                         eprosima::fastdds::dds::DataWriter& writer);
+/// A service call taken apart.
+struct OpenedCall {
+    ServiceCall call;
+    std::int64_t number = 0;          ///< that the caller gave it
+    std::span<std::uint8_t> members;  ///< a payload without header, within the call's
+};
 
-/// Reads a service call, whichever ROS 2 vendor it comes from: rmw_fastrtps names a related sample
-/// and writes the members alone, rmw_cyclonedds names none and puts a header before them. A call
-/// without a request_id gets one, "call-" with the call's number: the service itself tells replies
-/// apart.
+/// Tells which ROS 2 vendor a call comes from: rmw_fastrtps names a related sample and writes the
+/// members alone, rmw_cyclonedds names none and puts a header before them.
+/// @return nothing for a payload that is too short
+std::optional<OpenedCall> open_service_call(std::span<std::uint8_t> payload,
+                                            const eprosima::fastdds::dds::SampleInfo& info);
+
+/// Writes the reply to a service call in the way that its caller understands. `Struct` has the
+/// bytes of the service's response.
+/// @return false: not written
+template <class Struct>
+bool write_service_reply(const ServiceCall& call, const Struct& reply,
+                         eprosima::fastdds::dds::DataWriter& writer) {
+    if (call.related) {
+        Bytes payload = cdr_bytes(reply);
+        eprosima::fastrtps::rtps::WriteParams parameters;
+        parameters.related_sample_identity(*call.related);
+        return writer.write(&payload, parameters);
+    }
+    Bytes payload = cdr_bytes(reply, call.header);
+    return writer.write(&payload);
+}
+
+/// Reads a call of the planner's own service. A call without a request_id gets one, "call-" with
+/// the call's number: the service itself tells replies apart.
 /// @return null for a malformed payload
 std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
                                                    const eprosima::fastdds::dds::SampleInfo& info,

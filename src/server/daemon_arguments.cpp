@@ -82,4 +82,20 @@ RosNode ros_node(const RosArguments& ros, const RosConfig& config) {
     return node;
 }
 
+Result<MoveItSettings> moveit_settings(const RosConfig& config, std::vector<MoveItHand> hands) {
+    MoveItSettings settings;
+    if (config.moveit_error_codes == "jazzy") settings.error_codes = MoveItCodes::kJazzy;
+    if (config.moveit_error_codes == "humble") settings.error_codes = MoveItCodes::kHumble;
+    settings.gripper = config.moveit_gripper;
+    settings.hands = std::move(hands);
+    std::string known;
+    for (const MoveItHand& hand : settings.hands) {
+        if (hand.gripper == settings.gripper) return settings;
+        known += (known.empty() ? "" : ", ") + hand.gripper;
+    }
+    if (settings.gripper.empty()) return settings;
+    return PlanError{PlanErrorCode::kUnknownGripper, "ros.moveit_gripper = " + settings.gripper +
+                                                         " is unknown (known: " + known + ")"};
+}
+
 }  // namespace graspd::server

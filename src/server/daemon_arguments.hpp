@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "graspd/base/result.hpp"
 #include "graspd/config/ros_arguments.hpp"
@@ -37,5 +38,9 @@ Result<DaemonConfig> daemon_config(const DaemonArguments& arguments);
 
 /// The node as ROS 2 tools will show it.
 RosNode ros_node(const RosArguments& ros, const RosConfig& config);
+
+/// MoveIt's service as configured.
+/// @return kUnknownGripper for a default gripper that is none of the hands'
+Result<MoveItSettings> moveit_settings(const RosConfig& config, std::vector<MoveItHand> hands);
 
 }  // namespace graspd::server

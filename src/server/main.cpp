@@ -15,6 +15,7 @@
 #include "graspd/config/domain_id.hpp"
 #include "graspd/config/load_config.hpp"
 #include "graspd/config/load_gripper.hpp"
+#include "graspd/config/load_moveit_hand.hpp"
 #include "graspd/config/network_profile.hpp"
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/config/security.hpp"
@@ -66,6 +67,10 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     if (!profiles.ok()) return profiles.error();
     auto grippers = load_grippers(profiles.value() / "grippers");
     if (!grippers.ok()) return grippers.error();
+    auto hands = load_moveit_hands(profiles.value() / "grippers");
+    if (!hands.ok()) return hands.error();
+    auto moveit = moveit_settings(config.ros, std::move(hands).value());
+    if (!moveit.ok()) return moveit.error();
     auto network = choose_network(arguments.profile_file, profiles.value(), network_environment());
     if (!network.ok()) return network.error();
     auto names = wire_names(arguments.ros);
@@ -79,6 +84,7 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     dds.security = std::move(security).value();
     dds.names = std::move(names).value();
     dds.node = ros_node(arguments.ros, config.ros);
+    dds.moveit = std::move(moveit).value();
     dds.planner_id = process_name();
     dds.version = version();
     dds.config_hash = config_hash(config.planner);

@@ -46,14 +46,21 @@ struct ServerConfig {
 /// How the daemon shows itself to ROS 2; group `ros` of planner.yaml.
 struct RosConfig {
     static constexpr std::array<std::string_view, 4> kGidBytes = {"auto", "off", "16", "24"};
+    static constexpr std::array<std::string_view, 3> kErrorCodes = {"jazzy", "humble", "off"};
 
     /// Bytes of a Gid on ros_discovery_info: 24 up to Humble, 16 from Iron on; auto: as the first
     /// node that is heard of; off: graspd is no node.
     std::string gid_bytes = "auto";
+    /// Layout of the error code of MoveIt's service /plan_grasps; off: no such service.
+    std::string moveit_error_codes = "jazzy";
+    /// Gripper of MoveIt's calls without a group_name; empty: the first by name.
+    std::string moveit_gripper;
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         visit("gid_bytes", self.gid_bytes, Choices(kGidBytes));
+        visit("moveit_error_codes", self.moveit_error_codes, Choices(kErrorCodes));
+        visit("moveit_gripper", self.moveit_gripper);
     }
 };
 

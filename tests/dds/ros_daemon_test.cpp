@@ -64,6 +64,86 @@ TEST_F(RosDaemon, ATopicIsRemappedByItself) {
     EXPECT_EQ(reply.value().status, PlanStatus::kOk);
 }
 
+/// The topics of MoveIt's service, with the volatile reader of a ROS 2 client.
+test::RawTopics moveit_topics(const std::string& name_space) {
+    test::RawTopics topics{"rq" + name_space + "/plan_graspsRequest",
+                           "moveit_msgs::srv::dds_::GraspPlanning_Request_",
+                           dds::kMoveItRequestEnds,
+                           "rr" + name_space + "/plan_graspsReply",
+                           "moveit_msgs::srv::dds_::GraspPlanning_Response_",
+                           dds::kMoveItReplyEnds};
+    topics.reply_ends.transient_local = false;
+    return topics;
+}
+
+/// Calls with a box of 40 x 60 x 80 mm that stands on a table.
+moveit_msgs::srv::dds_::GraspPlanning_Response_ call_moveit(test::RawClient& caller,
+                                                            const std::string& group) {
+    moveit_msgs::srv::dds_::GraspPlanning_Request_ call;
+    call.group_name(group);
+    call.target().header().frame_id("base");
+    call.target().id("block");
+    call.target().pose().position().z(0.04);
+    call.target().pose().orientation().w(1.0);
+    auto& box = call.target().primitives().emplace_back();
+    box.type(shape_msgs::msg::dds_::SolidPrimitive__Constants::BOX_);
+    box.dimensions({0.04, 0.06, 0.08});
+    auto& table = call.movable_obstacles().emplace_back();
+    table.id("table");
+    table.pose().orientation().w(1.0);
+    table.planes().emplace_back().coef({0.0, 0.0, 1.0, 0.0});
+    call.support_surfaces().push_back("table");
+    EXPECT_NE(caller.call(test::payload_of(call)), 0u);
+    moveit_msgs::srv::dds_::GraspPlanning_Response_ response;
+    const auto replies = caller.wait_for_samples(1);
+    EXPECT_EQ(replies.size(), 1u);
+    if (replies.empty()) return response;
+    test::Bytes payload = replies.back().payload;
+    EXPECT_TRUE(dds::read_cdr(
+        payload, *dds::wire_layouts().find("moveit_msgs::srv::dds_::GraspPlanning_Response_"),
+        response));
+    return response;
+}
+
+// From the call to grasps that MoveIt can execute, of Franka's hand on its link 8.
+TEST_F(RosDaemon, PlansForMoveIt) {
+    const std::uint32_t domain = test::test_domain();
+    Daemon daemon(domain, {"--ros-args", "-r", "__ns:=/cell1"});
+    test::RawClient caller(moveit_topics("/cell1"), test::client_settings(domain));
+    ASSERT_TRUE(caller.wait_matched());
+    const auto response = call_moveit(caller, "franka_hand");
+    EXPECT_EQ(response.error_code().val(), 1) << response.error_code().message();
+    EXPECT_EQ(response.error_code().source(), "graspd");
+    ASSERT_FALSE(response.grasps().empty());
+    double last = 1.0;
+    for (const auto& grasp : response.grasps()) {
+        EXPECT_EQ(grasp.grasp_pose().header().frame_id(), "base");
+        EXPECT_GT(grasp.grasp_pose().pose().position().z(), 0.0);  // above the table
+        EXPECT_LE(grasp.grasp_quality(), last);
+        last = grasp.grasp_quality();
+        ASSERT_EQ(grasp.grasp_posture().points().size(), 1u);
+        const auto& at_contact = grasp.grasp_posture().points()[0].positions();
+        const auto& before = grasp.pre_grasp_posture().points().at(0).positions();
+        ASSERT_EQ(at_contact.size(), 2u);
+        EXPECT_GE(at_contact[0], 0.02 - 1e-6);  // half the block's narrowest side
+        EXPECT_GT(before[0], at_contact[0]);
+        EXPECT_LE(before[0], 0.04);
+    }
+    EXPECT_EQ(response.grasps()[0].post_grasp_retreat().direction().vector().z(), 1.0);
+}
+
+TEST_F(RosDaemon, TellsMoveItWhichGrippersThereAre) {
+    const std::uint32_t domain = test::test_domain();
+    Daemon daemon(domain);
+    test::RawClient caller(moveit_topics(""), test::client_settings(domain));
+    ASSERT_TRUE(caller.wait_matched());
+    const auto response = call_moveit(caller, "panda_arm");
+    EXPECT_EQ(response.error_code().val(), -15);
+    EXPECT_TRUE(response.grasps().empty());
+    EXPECT_THAT(response.error_code().message(),
+                AllOf(HasSubstr("group_name = \"panda_arm\""), HasSubstr("franka_hand")));
+}
+
 TEST_F(RosDaemon, WrongRosArgumentsEndWithTwo) {
     const auto leaves = [](const std::vector<std::string>& arguments) {
         ChildProcess daemon(GRASPD_PROGRAM, arguments);
@@ -77,6 +157,8 @@ TEST_F(RosDaemon, WrongRosArgumentsEndWithTwo) {
                 AllOf(HasSubstr("server.workers = many"), HasSubstr("[1, 256]")));
     EXPECT_THAT(leaves({"--ros-args", "-p", "server.workers:=0"}), HasSubstr("server.workers = 0"));
     EXPECT_THAT(leaves({"--ros-args", "-p", "ros.gid_bytes:=32"}), HasSubstr("gid_bytes = 32"));
+    EXPECT_THAT(leaves({"--ros-args", "-p", "ros.moveit_gripper:=hook"}),
+                AllOf(HasSubstr("ros.moveit_gripper = hook"), HasSubstr("parallel_85")));
     EXPECT_THAT(leaves({"--ros-args", "--params-file", "/nowhere.yaml"}),
                 HasSubstr("/nowhere.yaml"));
 }

@@ -76,6 +76,20 @@ TEST(RosGraph, AnnouncesTheNodeWithItsEndpoints) {
     EXPECT_EQ(info.gid().data()[15], 0xc1);  // RTPS: a participant
 }
 
+// One reader and one writer more.
+TEST(RosGraph, AnnouncesTheServiceForMoveIt) {
+    DdsSettings settings = node_settings(GidBytes::k16);
+    settings.moveit.error_codes = MoveItCodes::kHumble;
+    StubPlanner planner(no_answer, settings);
+    RawClient tool(graph_topics());
+    const auto seen = tool.wait_for(1);
+    ASSERT_THAT(seen, SizeIs(1));
+    const auto info = parsed<now::ParticipantEntitiesInfo_>(seen[0], kType);
+    ASSERT_THAT(info.node_entities_info_seq(), SizeIs(1));
+    EXPECT_THAT(info.node_entities_info_seq()[0].reader_gid_seq(), SizeIs(4));
+    EXPECT_THAT(info.node_entities_info_seq()[0].writer_gid_seq(), SizeIs(5));
+}
+
 TEST(RosGraph, SpeaksTheOldLayoutWhenTold) {
     StubPlanner planner(no_answer, node_settings(GidBytes::k24));
     RawClient tool(graph_topics());
@@ -170,6 +184,7 @@ private:
 TEST(RosGraph, ParticipantAndEndpointsCarryWhatToolsRead) {
     DdsSettings settings = node_settings(GidBytes::k16);
     settings.node.enclave = "/cell/planner";
+    settings.moveit.error_codes = MoveItCodes::kJazzy;
     Discovery discovery;
     auto& factory = *dds::fast::DomainParticipantFactory::get_instance();
     ASSERT_EQ(factory.load_XML_profiles_file(settings.profile_file), test::ReturnCode::RETCODE_OK);
@@ -189,6 +204,16 @@ TEST(RosGraph, ParticipantAndEndpointsCarryWhatToolsRead) {
                                        hash("graspd_msgs::msg::dds_::RankedGrasps_")));
         EXPECT_TRUE(discovery.wait_for("rr/graspd/plan_graspsReply" +
                                        hash("graspd_msgs::srv::dds_::PlanGrasps_Response_")));
+        EXPECT_TRUE(discovery.wait_for("rq/plan_graspsRequest" +
+                                       hash("moveit_msgs::srv::dds_::GraspPlanning_Request_")));
+        EXPECT_TRUE(discovery.wait_for("rr/plan_graspsReply" +
+                                       hash("moveit_msgs::srv::dds_::GraspPlanning_Response_")));
+    }
+    {
+        // Humble has no hashes, and Jazzy's would be that of another layout.
+        settings.moveit.error_codes = MoveItCodes::kHumble;
+        StubPlanner planner(no_answer, settings);
+        EXPECT_TRUE(discovery.wait_for("rr/plan_graspsReply "));
     }
     factory.delete_participant(tool);
 }

@@ -13,6 +13,8 @@ struct WireNames {
     std::string diagnostics = "rt/diagnostics";
     std::string service_request = "rq/graspd/plan_graspsRequest";
     std::string service_reply = "rr/graspd/plan_graspsReply";
+    std::string moveit_request = "rq/plan_graspsRequest";
+    std::string moveit_reply = "rr/plan_graspsReply";
 };
 
 }  // namespace graspd

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "graspd/base/moveit_hand.hpp"
 #include "graspd/base/security_enclave.hpp"
 #include "graspd/base/wire_names.hpp"
 
@@ -41,6 +42,17 @@ struct RequestLimits {
     std::uint32_t max_obstacle_faces = 1000000;  ///< of all obstacles together
 };
 
+/// The layout of moveit_msgs/MoveItErrorCodes, which grew under one type name: val alone up to
+/// Iron, with message and source behind it from Jazzy on.
+enum class MoveItCodes : std::uint8_t { kOff = 0, kHumble, kJazzy };
+
+/// The service /plan_grasps for MoveIt.
+struct MoveItSettings {
+    MoveItCodes error_codes = MoveItCodes::kOff;  ///< kOff: there is no such service
+    std::string gripper;            ///< for calls without a group_name; empty: the first known one
+    std::vector<MoveItHand> hands;  ///< by gripper
+};
+
 /// What both ends of the wire need to know before they join a domain.
 struct DdsSettings {
     std::uint32_t domain = 0;  ///< DDS domain id, 0..232
@@ -51,6 +63,7 @@ struct DdsSettings {
     std::optional<SecurityEnclave> security;  ///< absent: everybody may speak, read and listen
     WireNames names;
     RosNode node;
+    MoveItSettings moveit;
     std::string planner_id;                        ///< names this process in its replies
     std::string version;                           ///< likewise, such as "0.1.0"
     std::string config_hash;                       ///< likewise, 16 hexadecimal digits
