@@ -4,7 +4,6 @@
 
 #include "answer.hpp"
 #include "check_request.hpp"
-#include "graspd/base/fnv1a.hpp"
 #include "graspd/base/parallel.hpp"
 #include "graspd/base/settings.hpp"
 #include "pose_tolerance.hpp"
@@ -25,6 +24,35 @@ constexpr double kGreatestMass_kg = 0.5;
 /// Named, because validate() is a gripper's too.
 std::optional<PlanError> check_settings(const PlannerConfig& config) {
     return validate<PlannerConfig>(config);
+}
+
+/// Prepares an object under its key.
+Result<PreparedObjectPtr> prepared_as(std::string object_key,
+                                      const std::variant<TriangleMesh, PointCloud>& object_O,
+                                      const PlannerConfig& config, StageLog& log) {
+    auto object = prepare_object(object_O, config, log);
+    if (!object) return object.error();
+    object.value().object_key = std::move(object_key);
+    return std::make_shared<const PreparedObject>(std::move(object).value());
+}
+
+/// Prepares the request's object unless it is there already; says so in the answer.
+std::optional<PlanError> make_ready(PreparedObjectPtr& object, const PlanRequest& request,
+                                    const PlannerConfig& config, Answer& answer) {
+    answer.reply.object_key = object ? object->object_key : object_key_of(request.object_O);
+    if (!object) {
+        auto fresh = prepared_as(answer.reply.object_key, request.object_O, config, answer.log);
+        if (!fresh) return fresh.error();
+        object = std::move(fresh).value();
+    } else {
+        if (object->settings != settings_of_preparation(config)) {
+            return PlanError{PlanErrorCode::kInvalidInput,
+                             "object " + object->object_key + " was prepared under other settings"};
+        }
+        for (const StageReport& stage : object->stages) answer.log.add(stage);
+    }
+    answer.reply.report.findings = object->findings;
+    return std::nullopt;
 }
 
 /// Gravity's direction as far as the request tells it.
@@ -138,21 +166,11 @@ std::string suggestion_for(const PlanRequest& request, const Found& found, Scene
 
 }  // namespace
 
-std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O) {
-    std::uint64_t hash = kFnvOffset;
-    const auto add = [&](const auto& items) {
-        if (items.empty()) return;
-        using Item = std::remove_cvref_t<decltype(items.front())>;
-        hash =
-            fnv1a({reinterpret_cast<const char*>(items.data()), items.size() * sizeof(Item)}, hash);
-    };
-    if (const auto* mesh = std::get_if<TriangleMesh>(&object_O)) {
-        add(mesh->vertices);
-        add(mesh->faces);
-    } else {
-        add(std::get<PointCloud>(object_O).points);
-    }
-    return to_hex(hash);
+Result<PreparedObjectPtr> prepare(const std::variant<TriangleMesh, PointCloud>& object_O,
+                                  const PlannerConfig& config) {
+    if (const auto bad = check_settings(config)) return *bad;
+    StageLog log;
+    return prepared_as(object_key_of(object_O), object_O, config, log);
 }
 
 double object_mass_kg(const PlanOptions& options, double volume_m3) {
@@ -162,17 +180,18 @@ double object_mass_kg(const PlanOptions& options, double volume_m3) {
 
 PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
                const StopQuery& stop_requested) {
+    PreparedObjectPtr object;
+    return plan(request, object, config, stop_requested);
+}
+
+PlanReply plan(const PlanRequest& request, PreparedObjectPtr& object, const PlannerConfig& config,
+               const StopQuery& stop_requested) {
     Answer answer(request);
     if (const auto bad = check_settings(config)) return answer.refuse(*bad);
     if (const auto bad = check_request(request)) return answer.refuse(*bad);
-    answer.reply.object_key = object_key_of(request.object_O);
-
     // II-A: the object and its concavity.
-    const auto object = prepare_object(request.object_O, config, answer.log);
-    if (!object) return answer.refuse(object.error());
-    answer.reply.report.findings = object.value().findings;
-
-    Scene scene(request, object.value());
+    if (const auto bad = make_ready(object, request, config, answer)) return answer.refuse(*bad);
+    Scene scene(request, *object);
     auto found = find_grasps(request, scene, config, stop_requested, answer.log);
     if (!found) return answer.refuse(found.error());
     if (!found.value().stopped) {

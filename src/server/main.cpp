@@ -143,9 +143,10 @@ int serve(const Setup& setup, const sigset_t& signals) {
     PlannerService service(
         setup.config.server,
         {setup.grippers,
-         [&](const PlanRequest& request, const StopQuery& stop_requested) {
+         [&](const PlanRequest& request, PreparedObjectPtr& object,
+             const StopQuery& stop_requested) {
              spdlog::debug("event=planning id={}", log_value(request.request_id));
-             return plan(request, setup.config.planner, stop_requested);
+             return plan(request, object, setup.config.planner, stop_requested);
          },
          [&](const OutgoingReply& reply) { return port->write(reply); }, log_answer});
     auto opened = PlannerPort::open(

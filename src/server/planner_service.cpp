@@ -131,28 +131,33 @@ PlanReply PlannerService::process(const IncomingRequest& request, const DropFlag
     work.convert_ms = ms_since(start);
     if (!converted.ok()) return refused(request, converted.error());
     PlanRequest problem = std::move(converted).value();
-    const std::string& key = request.object_key();
-    if (!key.empty() && !fill_in_object(key, problem)) return unknown_object(request);
-    work.points = point_count(problem.object_O);
-    return plan_request(request, std::move(problem), dropped, work);
+    StoredObject object = known_object(request.object_key(), problem);
+    const bool sent = request.object_key().empty();
+    if (!sent && !object.geometry) return unknown_object(request);
+    work.points = point_count(sent ? problem.object_O : *object.geometry);
+    return plan_request(request, std::move(problem), std::move(object), dropped, work);
 }
 
-/// Puts the object of an earlier request into this one.
-bool PlannerService::fill_in_object(const std::string& key, PlanRequest& problem) {
-    const auto object = objects_.find(key);
-    if (object != nullptr) problem.object_O = *object;
-    return object != nullptr;
+/// The object of an earlier request that this one names, or sends again.
+StoredObject PlannerService::known_object(const std::string& key, const PlanRequest& problem) {
+    if (!key.empty()) return objects_.find(key);
+    return objects_.find(object_key_of(problem.object_O), problem.object_O);
 }
 
 PlanReply PlannerService::plan_request(const IncomingRequest& request, PlanRequest problem,
-                                       const DropFlag& dropped, Work& work) {
+                                       StoredObject object, const DropFlag& dropped, Work& work) {
     const auto deadline = deadline_of(request, problem.options);
     if (Clock::now() >= deadline) return budget_spent(request, problem.options);
+    const bool prepared = object.prepared != nullptr;
+    if (!prepared && object.geometry) problem.object_O = *object.geometry;
     const auto start = Clock::now();
-    PlanReply reply = parts_.plan(
-        problem, [&] { return stop_.stop_requested() || *dropped || Clock::now() >= deadline; });
+    PlanReply reply = parts_.plan(problem, object.prepared, [&] {
+        return stop_.stop_requested() || *dropped || Clock::now() >= deadline;
+    });
     work.plan_ms = ms_since(start);
-    if (!reply.object_key.empty()) objects_.put(reply.object_key, std::move(problem.object_O));
+    if (!prepared && !reply.object_key.empty()) {
+        objects_.put(reply.object_key, std::move(problem.object_O), object.prepared);
+    }
     const bool empty = reply.status == PlanStatus::kPartial && reply.grasps.empty();
     return empty && stop_.stop_requested() ? stopped(request) : reply;
 }

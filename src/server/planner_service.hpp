@@ -41,7 +41,8 @@ struct Answer {
 /// What the service is made of; all of it may be replaced in tests.
 struct ServiceParts {
     std::vector<Gripper> grippers;  ///< those that a request may name
-    std::function<PlanReply(const PlanRequest&, const StopQuery&)> plan;  ///< on many threads
+    /// On many threads. The object: as plan() takes it, null where it is not known yet.
+    std::function<PlanReply(const PlanRequest&, PreparedObjectPtr&, const StopQuery&)> plan;
     std::function<bool(const OutgoingReply&)> write;  ///< on one thread; false: lost
     std::function<void(const Answer&)> log;           ///< likewise, after the write; may be empty
 };
@@ -105,9 +106,9 @@ private:
     DropFlag begin(const RequestPtr& request);
     PlanReply answer(const IncomingRequest& request, const DropFlag& dropped, Work& work);
     PlanReply process(const IncomingRequest& request, const DropFlag& dropped, Work& work);
-    PlanReply plan_request(const IncomingRequest& request, PlanRequest problem,
+    PlanReply plan_request(const IncomingRequest& request, PlanRequest problem, StoredObject object,
                            const DropFlag& dropped, Work& work);
-    bool fill_in_object(const std::string& key, PlanRequest& problem);
+    StoredObject known_object(const std::string& key, const PlanRequest& problem);
     bool write(const OutgoingReply& reply) const noexcept;
     void receive(const RequestPtr& request);
     void finish(const RequestPtr& request, const PlanReply& reply, const Work& work);
