@@ -5,13 +5,11 @@
 #include <cstring>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
 #include "cdr_layout.hpp"
-#include "graspd/base/fnv1a.hpp"
 
 namespace graspd::dds {
 
@@ -29,7 +27,7 @@ struct PayloadGuard {
 /// the middleware drops it.
 ///
 /// `Sample` is what createData() makes: the generated struct, or a struct that inherits from it. If
-/// it has a member payload_hash, that becomes the FNV-1a of the payload.
+/// it has a member read(), that reads the payload once its bytes have been walked.
 template <class Generated, class Sample = typename Generated::type>
 class GuardedType : public Generated {
 public:
@@ -64,14 +62,13 @@ private:
         if (!is_well_formed({payload->data, payload->length}, *layout_)) return false;
         try {
             auto* sample = static_cast<Sample*>(data);
-            if (!Generated::deserialize(payload, static_cast<typename Generated::type*>(sample))) {
-                return false;
+            if constexpr (requires { sample->read(std::span<std::uint8_t>()); }) {
+                sample->read({payload->data, payload->length});
+                return true;
+            } else {
+                return Generated::deserialize(payload,
+                                              static_cast<typename Generated::type*>(sample));
             }
-            if constexpr (requires { sample->payload_hash; }) {
-                sample->payload_hash = fnv1a(std::string_view(
-                    reinterpret_cast<const char*>(payload->data), payload->length));
-            }
-            return true;
         } catch (...) {  // fastcdr's exceptions, bad_alloc: nothing may pass
             return false;
         }

@@ -1,8 +1,5 @@
 #include "received_request.hpp"
 
-#include <string_view>
-
-#include "graspd/base/fnv1a.hpp"
 #include "guid_bytes.hpp"
 
 namespace graspd::dds {
@@ -53,11 +50,12 @@ std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
         number = header->sequence;
     }
     // The request's message has one member, so its bytes are those of a GraspRequest_.
-    if (layout == nullptr || !read_cdr<wire::GraspRequest_>(members, *layout, request->sample)) {
+    if (layout == nullptr || !is_well_formed(members, *layout)) return nullptr;
+    try {
+        request->sample.read(members);
+    } catch (...) {  // fastcdr's exceptions, bad_alloc
         return nullptr;
     }
-    request->sample.payload_hash =
-        fnv1a(std::string_view(reinterpret_cast<const char*>(members.data()), members.size()));
     if (request->sample.request_id().empty()) {
         request->sample.request_id("call-" + std::to_string(number));
     }

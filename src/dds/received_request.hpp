@@ -10,13 +10,9 @@
 #include "cdr_bytes.hpp"
 #include "convert_request.hpp"
 #include "graspd/dds/planner_port.hpp"
+#include "received_sample.hpp"
 
 namespace graspd::dds {
-
-/// A request with the hash of its payload, which the guard takes.
-struct ReceivedSample : wire::GraspRequest_ {
-    std::uint64_t payload_hash = 0;
-};
 
 /// How the answer to a service call finds its caller.
 struct ServiceCall {
@@ -40,7 +36,7 @@ public:
     const std::string& frame_id() const override { return sample.header().frame_id(); }
     const std::string& object_key() const override { return sample.object_key(); }
     Result<PlanRequest> convert(std::span<const Gripper> known) const override {
-        return read_request(sample, known);
+        return read_request(sample, sample.mesh_O, known);
     }
 
 private:

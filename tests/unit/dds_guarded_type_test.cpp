@@ -237,26 +237,5 @@ TEST_F(GuardedRequest, RefusesMoreElementsThanTheBytesCanHold) {
     }
 }
 
-struct Hashed : wire::GraspRequest_ {
-    std::uint64_t payload_hash = 0;
-};
-
-// The published test vector of FNV-1a says 0x85944171f73967e8 for "foobar"; here the bytes are
-// those of the payload, header included.
-TEST(GuardedHash, IsThatOfThePayload) {
-    GuardedType<wire::GraspRequest_PubSubType, Hashed> type(std::make_shared<PayloadGuard>());
-    Bytes bytes = filled_bytes<wire::GraspRequest_>();
-    std::uint64_t expected = 0xcbf29ce484222325u;
-    for (const std::uint8_t byte : bytes) expected = (expected ^ byte) * 0x100000001b3u;
-    SerializedPayload_t payload(static_cast<std::uint32_t>(bytes.size()));
-    std::ranges::copy(bytes, payload.data);
-    payload.length = static_cast<std::uint32_t>(bytes.size());
-    auto* sample = static_cast<Hashed*>(type.createData());
-    ASSERT_TRUE(type.deserialize(&payload, sample));
-    EXPECT_EQ(sample->payload_hash, expected);
-    EXPECT_EQ(sample->request_id(), "a request");
-    type.deleteData(sample);
-}
-
 }  // namespace
 }  // namespace graspd::dds

@@ -21,7 +21,7 @@ struct RequestIdentity {
     std::array<std::uint8_t, 16> writer{};  ///< GUID of the DDS writer: prefix, then entity id
     std::string client_id;           ///< its first 64 characters, unprintable ones shown as '?'
     std::string request_id;          ///< likewise; convert() refuses an id that this had to change
-    std::uint64_t payload_hash = 0;  ///< FNV-1a of the serialized payload as received
+    std::uint64_t payload_hash = 0;  ///< content_hash() of the serialized payload
 };
 
 /// A request as the listener took it. Nothing has been converted yet, so taking it is cheap.

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "graspd/base/geometry.hpp"
+#include "wire_types.hpp"
+
+namespace graspd::dds {
+
+/// A request as it is taken from the wire. Its mesh goes to the planner's own type at once, in two
+/// blocks: element by element, as the generated code reads it, 5 MB took 4 ms.
+struct ReceivedSample : wire::GraspRequest_ {
+    TriangleMesh mesh_O;             ///< [m] every vertex and face as it stands; mesh() is empty
+    std::uint64_t payload_hash = 0;  ///< content_hash() of the payload
+
+    /// Reads everything from a payload that is_well_formed() has let through, of either byte order.
+    /// Throws what fastcdr throws.
+    void read(std::span<std::uint8_t> bytes);
+};
+
+}  // namespace graspd::dds
