@@ -31,7 +31,8 @@ bool write_service_reply(const ServiceCall& call, const wire::RankedGrasps_& rep
 }
 
 std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
-                                                   const eprosima::fastdds::dds::SampleInfo& info) {
+                                                   const eprosima::fastdds::dds::SampleInfo& info,
+                                                   bool keep_payload) {
     static const CdrStruct* const layout =
         wire_layouts().find("graspd_msgs::srv::dds_::PlanGrasps_Request_");
     auto request = std::make_unique<ReceivedRequest>();
@@ -52,6 +53,10 @@ std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
     // The request's message has one member, so its bytes are those of a GraspRequest_.
     if (layout == nullptr || !is_well_formed(members, *layout)) return nullptr;
     try {
+        if (keep_payload) {
+            request->sample.payload = std::make_shared<ReceivedPayload>();
+            request->sample.payload->by_service = true;
+        }
         request->sample.read(members);
     } catch (...) {  // fastcdr's exceptions, bad_alloc
         return nullptr;

@@ -35,6 +35,7 @@ public:
     std::chrono::steady_clock::time_point received() const override { return received_; }
     const std::string& frame_id() const override { return sample.header().frame_id(); }
     const std::string& object_key() const override { return sample.object_key(); }
+    std::shared_ptr<const ReceivedPayload> payload() const override { return sample.payload; }
     Result<PlanRequest> convert(std::span<const Gripper> known) const override {
         return read_request(sample, sample.mesh_O, known);
     }
@@ -55,6 +56,7 @@ bool write_service_reply(const ServiceCall& call, const wire::RankedGrasps_& rep
 /// apart.
 /// @return null for a malformed payload
 std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
-                                                   const eprosima::fastdds::dds::SampleInfo& info);
+                                                   const eprosima::fastdds::dds::SampleInfo& info,
+                                                   bool keep_payload = false);
 
 }  // namespace graspd::dds

@@ -52,6 +52,7 @@ void ReceivedSample::read(std::span<std::uint8_t> bytes) {
         support_plane() >> obstacles() >> obstacle_cloud() >> approach_cones() >>
         keep_out_boxes() >> options();
     payload_hash = content_hash(std::as_bytes(bytes));
+    if (payload) payload->bytes.assign(bytes.begin(), bytes.end());
 }
 
 }  // namespace graspd::dds

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "graspd/base/geometry.hpp"
+#include "graspd/dds/planner_port.hpp"
 #include "wire_types.hpp"
 
 namespace graspd::dds {
@@ -13,6 +15,7 @@ namespace graspd::dds {
 struct ReceivedSample : wire::GraspRequest_ {
     TriangleMesh mesh_O;             ///< [m] every vertex and face as it stands; mesh() is empty
     std::uint64_t payload_hash = 0;  ///< content_hash() of the payload
+    std::shared_ptr<ReceivedPayload> payload;  ///< where there is one, read() leaves the bytes here
 
     /// Reads everything from a payload that is_well_formed() has let through, of either byte order.
     /// Throws what fastcdr throws.

@@ -18,9 +18,11 @@
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/config/version.hpp"
 #include "graspd/config/wire_names.hpp"
+#include "graspd/dds/payloads.hpp"
 #include "planner_service.hpp"
 #include "profile_interfaces.hpp"
 #include "request_line.hpp"
+#include "request_recorder.hpp"
 
 // graspd: the planner as a DDS participant. Here, and nowhere else, it is decided what is built
 // with what.
@@ -74,6 +76,7 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     dds.version = version();
     dds.config_hash = config_hash(config.planner);
     dds.max_payload_bytes = config.server.max_payload_bytes;
+    dds.keep_payloads = !config.server.record_dir.empty();
     return Setup{config, std::move(dds), network.value().why, std::move(grippers).value()};
 }
 
@@ -137,22 +140,51 @@ int fail(const PlanError& error) {
     return error.code == PlanErrorCode::kInternal ? kExitInternal : kExitUsage;
 }
 
+/// What writes requests to files; null where the configuration asks for none.
+Result<std::unique_ptr<RequestRecorder>> open_recorder(const Setup& setup) {
+    const ServerConfig& config = setup.config.server;
+    if (config.record_dir.empty()) return std::unique_ptr<RequestRecorder>();
+    return RequestRecorder::open(
+        {config.record_dir, config.record_max_requests, config.record_max_bytes, setup.dds.version,
+         setup.dds.config_hash},
+        {[&](const ObjectGeometry& geometry) {
+             PlanRequest request;
+             request.request_id = "object";
+             request.object_O = geometry;
+             request.grippers = {setup.grippers.front()};  // a request needs one
+             auto payload = request_payload(request, "");
+             return payload.ok() ? std::move(payload).value() : std::vector<std::uint8_t>{};
+         },
+         [](const std::string& what, std::uint64_t failures) {
+             spdlog::warn("event=record_failed failures={} what={}", failures, log_value(what));
+         }});
+}
+
 /// Serves until a signal comes. @return the exit code
 int serve(const Setup& setup, const sigset_t& signals) {
+    const auto recorder = open_recorder(setup);
+    if (!recorder.ok()) return fail(recorder.error());
+    RequestRecorder* const record = recorder.value().get();
     std::unique_ptr<PlannerPort> port;
-    PlannerService service(
-        setup.config.server,
-        {setup.grippers,
-         [&](const PlanRequest& request, PreparedObjectPtr& object,
-             const StopQuery& stop_requested) {
-             spdlog::debug("event=planning id={}", log_value(request.request_id));
-             return plan(request, object, setup.config.planner, stop_requested);
-         },
-         [&](const OutgoingReply& reply) { return port->write(reply); }, log_answer});
+    PlannerService service(setup.config.server,
+                           {setup.grippers,
+                            [&](const PlanRequest& request, PreparedObjectPtr& object,
+                                const StopQuery& stop_requested) {
+                                spdlog::debug("event=planning id={}",
+                                              log_value(request.request_id));
+                                return plan(request, object, setup.config.planner, stop_requested);
+                            },
+                            [&](const OutgoingReply& reply) { return port->write(reply); },
+                            [&](const Answer& answer) {
+                                log_answer(answer);
+                                if (record != nullptr)
+                                    record->answered(answer, port->payload_of(answer.out));
+                            }});
     auto opened = PlannerPort::open(
         setup.dds,
         [&](auto request) {
             log_received(request->identity());
+            if (record != nullptr) record->received(*request);
             service.handle(std::move(request));
         },
         [&](const CancelOrder& order) { log_cancel(order, service.cancel(order)); });
@@ -176,6 +208,11 @@ int serve(const Setup& setup, const sigset_t& signals) {
     const bool confirmed = port->wait_acknowledged(kAcknowledgeWait);
     if (!confirmed) spdlog::warn("event=unconfirmed what=\"some replies were not acknowledged\"");
     log_end(service.counters(), *port);
+    if (record != nullptr) {
+        record->close();
+        spdlog::info("event=recorded requests={} failures={}", record->recorded(),
+                     record->failures());
+    }
     if (!ended) std::_Exit(0);  // a planner that does not stop must not keep the process
     return 0;
 }

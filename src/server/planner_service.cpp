@@ -134,6 +134,7 @@ PlanReply PlannerService::process(const IncomingRequest& request, const DropFlag
     StoredObject object = known_object(request.object_key(), problem);
     const bool sent = request.object_key().empty();
     if (!sent && !object.geometry) return unknown_object(request);
+    if (!sent) work.named_object = object.geometry;
     work.points = point_count(sent ? problem.object_O : *object.geometry);
     return plan_request(request, std::move(problem), std::move(object), dropped, work);
 }

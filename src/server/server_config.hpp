@@ -18,6 +18,10 @@ struct ServerConfig {
     std::uint64_t object_cache_bytes = 256 << 20;  ///< [bytes] of objects kept under their keys
     std::uint32_t max_payload_bytes = 256u << 20;  ///< [bytes] a larger request is rejected
 
+    std::string record_dir;                     ///< requests are written there; empty: nowhere
+    std::uint32_t record_max_requests = 1000;   ///< of them that are kept
+    std::uint64_t record_max_bytes = 1u << 30;  ///< [bytes] that those may take
+
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         constexpr std::uint64_t kTerabyte = std::uint64_t{1} << 40;
@@ -27,6 +31,9 @@ struct ServerConfig {
         visit("reply_cache_bytes", self.reply_cache_bytes, std::uint64_t{1} << 16, kTerabyte);
         visit("object_cache_bytes", self.object_cache_bytes, std::uint64_t{0}, kTerabyte);
         visit("max_payload_bytes", self.max_payload_bytes, 1024u, 2147483647u);
+        visit("record_dir", self.record_dir);
+        visit("record_max_requests", self.record_max_requests, 1u, 1000000u);
+        visit("record_max_bytes", self.record_max_bytes, std::uint64_t{1} << 16, kTerabyte);
     }
 };
 

@@ -43,6 +43,7 @@ struct DdsSettings {
     std::string version;                           ///< likewise, such as "0.1.0"
     std::string config_hash;                       ///< likewise, 16 hexadecimal digits
     std::uint32_t max_payload_bytes = 256u << 20;  ///< [byte] a larger sample is refused unread
+    bool keep_payloads = false;                    ///< IncomingRequest::payload() has the bytes
 };
 
 }  // namespace graspd

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "graspd/base/result.hpp"
 #include "graspd/dds/dds_settings.hpp"
@@ -24,6 +25,12 @@ struct RequestIdentity {
     std::uint64_t payload_hash = 0;  ///< content_hash() of the serialized payload
 };
 
+/// A request's bytes.
+struct ReceivedPayload {
+    std::vector<std::uint8_t> bytes;  ///< encapsulation header and members, as received
+    bool by_service = false;          ///< else by the topic
+};
+
 /// A request as the listener took it. Nothing has been converted yet, so taking it is cheap.
 /// Immutable, so safe to use from any thread.
 class IncomingRequest {
@@ -34,6 +41,9 @@ public:
     virtual std::chrono::steady_clock::time_point received() const = 0;
     virtual const std::string& frame_id() const = 0;    ///< name of F, echoed in the reply
     virtual const std::string& object_key() const = 0;  ///< empty when geometry came along
+
+    /// Null unless DdsSettings::keep_payloads asks for it.
+    virtual std::shared_ptr<const ReceivedPayload> payload() const { return nullptr; }
 
     /// Checks every field and converts it. With an object_key the object is left empty for the
     /// caller to fill in.
@@ -84,6 +94,8 @@ public:
     /// waited for, 100 ms at most. To be called from one thread. @return false: the reply is lost
     /// (and counted)
     virtual bool write(const OutgoingReply& reply) = 0;
+    /// What write() puts on the topic: encapsulation header and members. Any thread.
+    virtual std::vector<std::uint8_t> payload_of(const OutgoingReply& reply) const = 0;
     /// Writes what the planner says of itself to the topics status and diagnostics, and asserts
     /// that it is alive. To be called from one thread. @return false: not written
     virtual bool write_state(PlannerState state) = 0;
