@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "graspd/base/heap_bytes.hpp"
 #include "graspd/base/lanes.hpp"
 #include "graspd/base/stop.hpp"
 
@@ -359,6 +360,11 @@ std::vector<TriangleBvh::Hit> TriangleBvh::all_hits(const Eigen::Vector3d& origi
     };
     hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());
     return hits;
+}
+
+std::uint64_t TriangleBvh::bytes() const {
+    return sizeof *this + heap_bytes(tree_.nodes) + heap_bytes(tree_.order) +
+           heap_bytes(vertices_) + heap_bytes(faces_) + heap_bytes(number_) + heap_bytes(packs_);
 }
 
 bool TriangleBvh::contains(const Eigen::Vector3d& point) const {

@@ -47,6 +47,13 @@ int run_request(const PlanArguments& plan, const DdsArguments& dds, const Output
 /// Lists the planners that are alive. Only in builds with GRASPD_BUILD_DDS.
 int run_status(const DdsArguments& dds, const OutputArguments& output);
 
+/// Plans a recorded request again and prints in what the reply differs from the recorded one. The
+/// exit code is kExitOk for the same reply, kExitNoGrasp for another one. Only in builds with
+/// GRASPD_BUILD_DDS.
+/// @param file  request-000001.cdr; its reply and, where it names an object, that lie beside it
+int run_replay(const std::string& file, const std::string& config_file,
+               const OutputArguments& output);
+
 /// Prints the concavity of every vertex or point of a file, in the file's order.
 /// @param method  any_angle, tetrahedral, or empty: as configured
 int run_concavity(const ObjectArguments& object, const std::string& method,

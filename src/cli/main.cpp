@@ -116,6 +116,16 @@ void add_status(CLI::App& app, Arguments& to, std::function<int()>& run) {
     status->callback([&] { run = [&] { return run_status(to.dds, to.output); }; });
 }
 
+void add_replay(CLI::App& app, Arguments& to, std::function<int()>& run) {
+    auto* replay = app.add_subcommand("replay", "plan a recorded request again and compare");
+    replay->add_option("FILE", to.plan.object.file, "request-000001.cdr of server.record_dir")
+        ->required();
+    add_config(*replay, to);
+    add_format(*replay, to);
+    replay->callback(
+        [&] { run = [&] { return run_replay(to.plan.object.file, to.config_file, to.output); }; });
+}
+
 void add_request(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* request = app.add_subcommand("request", "have a running graspd plan, over DDS");
     add_plan(*request, to);
@@ -149,6 +159,7 @@ void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     plan->callback([&] { run = [&] { return run_plan(to.plan, to.config_file, to.output); }; });
     add_simulate(app, to, run);
 #ifdef GRASPD_WITH_DDS
+    add_replay(app, to, run);
     add_request(app, to, run);
     add_status(app, to, run);
 #endif

@@ -25,8 +25,9 @@ void check_names(const wire::GraspRequest_& in, FirstError& errors) {
     check_text(in.header().frame_id(), "header.frame_id", {0, kMostFrame}, errors);
 }
 
-void check_object_choice(const wire::GraspRequest_& in, FirstError& errors) {
-    const bool mesh = !is_empty(in.mesh());
+void check_object_choice(const wire::GraspRequest_& in, const TriangleMesh& mesh_O,
+                         FirstError& errors) {
+    const bool mesh = !mesh_O.vertices.empty() || !mesh_O.faces.empty();
     const bool cloud = !is_empty(in.cloud());
     const bool key = !in.object_key().empty();
     if (mesh + cloud + key != 1) {
@@ -45,8 +46,9 @@ void check_object_choice(const wire::GraspRequest_& in, FirstError& errors) {
     }
 }
 
-void read_object(const wire::GraspRequest_& in, PlanRequest& out, FirstError& errors) {
-    check_object_choice(in, errors);
+void read_object(const wire::GraspRequest_& in, const TriangleMesh& mesh_O, PlanRequest& out,
+                 FirstError& errors) {
+    check_object_choice(in, mesh_O, errors);
     check_count(in.sensor_origin().size(), 1, "sensor_origin", errors);
     check_count(in.object_pose().size(), 1, "object_pose", errors);
     if (errors.any()) return;
@@ -54,7 +56,7 @@ void read_object(const wire::GraspRequest_& in, PlanRequest& out, FirstError& er
         out.X_FO = read_pose(in.object_pose().front(), "object_pose[0]", errors);
     }
     if (is_empty(in.cloud())) {
-        out.object_O = read_mesh(in.mesh());
+        out.object_O = mesh_O;
         return;
     }
     PointCloud cloud{read_cloud(in.cloud(), "cloud", errors), {}};
@@ -144,6 +146,11 @@ void write_scene(const PlanRequest& in, wire::GraspRequest_& out) {
 
 Result<PlanRequest> read_request(const wire::GraspRequest_& request,
                                  std::span<const Gripper> known) {
+    return read_request(request, read_mesh(request.mesh()), known);
+}
+
+Result<PlanRequest> read_request(const wire::GraspRequest_& request, const TriangleMesh& mesh_O,
+                                 std::span<const Gripper> known) {
     PlanRequest out;
     FirstError errors;
     check_names(request, errors);
@@ -152,7 +159,7 @@ Result<PlanRequest> read_request(const wire::GraspRequest_& request,
     out.options = read_options(request, errors);
     if (!errors.any()) out.grippers = read_grippers(request, known, errors);
     if (!errors.any()) read_scene(request, out, errors);
-    if (!errors.any()) read_object(request, out, errors);
+    if (!errors.any()) read_object(request, mesh_O, out, errors);
     if (errors.any()) return *errors.error();
     return out;
 }

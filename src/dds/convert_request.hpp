@@ -16,6 +16,9 @@ namespace graspd::dds {
 /// @return kInvalidInput, kUnsupported or kUnknownGripper for the first wrong field, with its value
 Result<PlanRequest> read_request(const wire::GraspRequest_& request,
                                  std::span<const Gripper> known);
+/// The same with a mesh in place of that of the request.
+Result<PlanRequest> read_request(const wire::GraspRequest_& request, const TriangleMesh& mesh_O,
+                                 std::span<const Gripper> known);
 
 /// The same request on the wire, grippers inline and the stamp zero.
 /// @return kInvalidInput for an id that the wire cannot carry, kTooLarge for a cloud too big

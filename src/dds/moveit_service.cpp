@@ -1,9 +1,9 @@
 #include "moveit_service.hpp"
 
-#include <string_view>
+#include <span>
 #include <utility>
 
-#include "graspd/base/fnv1a.hpp"
+#include "graspd/base/content_hash.hpp"
 #include "guid_bytes.hpp"
 
 namespace graspd::dds {
@@ -99,9 +99,7 @@ bool MoveItService::take_call(fast::DataReader& reader) {
         return true;
     }
     request->call = opened->call;
-    request->complete(info, opened->number,
-                      fnv1a(std::string_view(reinterpret_cast<const char*>(opened->members.data()),
-                                             opened->members.size())));
+    request->complete(info, opened->number, content_hash(std::as_bytes(opened->members)));
     handle_(std::move(request));
     return true;
 }

@@ -100,6 +100,10 @@ public:
         return written;
     }
 
+    std::vector<std::uint8_t> payload_of(const OutgoingReply& reply) const override {
+        return cdr_bytes(write_reply(reply.reply, envelope_of(reply)));
+    }
+
     bool write_state(PlannerState state) override {
         state.planner_id = settings_.planner_id;
         state.version = settings_.version;
@@ -175,6 +179,7 @@ private:
 
     bool take_request(fast::DataReader& reader) {
         auto request = std::make_unique<ReceivedRequest>();
+        if (settings_.keep_payloads) request->sample.payload = std::make_shared<ReceivedPayload>();
         fast::SampleInfo info;
         if (reader.take_next_sample(&request->sample, &info) != ReturnCode_t::RETCODE_OK) {
             return false;
@@ -190,7 +195,8 @@ private:
         fast::SampleInfo info;
         if (reader.take_next_sample(&payload, &info) != ReturnCode_t::RETCODE_OK) return false;
         if (!info.valid_data) return true;
-        if (auto request = read_service_call(std::move(payload), info, *guard_)) {
+        if (auto request =
+                read_service_call(std::move(payload), info, *guard_, settings_.keep_payloads)) {
             handle_request_(std::move(request));
         } else {
             guard_->rejected.fetch_add(1, std::memory_order_relaxed);

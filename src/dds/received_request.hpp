@@ -12,20 +12,9 @@
 #include "convert_options.hpp"
 #include "convert_request.hpp"
 #include "graspd/dds/planner_port.hpp"
+#include "received_sample.hpp"
 
 namespace graspd::dds {
-
-/// A request with what the guard noted while it read it.
-struct ReceivedSample : wire::GraspRequest_ {
-    std::chrono::steady_clock::time_point received;  ///< before it was read
-    std::uint64_t payload_hash = 0;
-    RequestSize size;
-    std::optional<PlanError> refused;  ///< over a limit: nothing but its names was read then
-
-    /// Counts, compares with the limits, then reads. @param payload  with its encapsulation header
-    /// @return false for a malformed payload, and for one over a limit whose names cannot be read
-    bool read(std::span<std::uint8_t> payload, const PayloadGuard& guard);
-};
 
 /// How the answer to a service call finds its caller.
 struct ServiceCall {
@@ -48,9 +37,10 @@ public:
     std::chrono::steady_clock::time_point received() const override { return sample.received; }
     const std::string& frame_id() const override { return sample.header().frame_id(); }
     const std::string& object_key() const override { return sample.object_key(); }
+    std::shared_ptr<const ReceivedPayload> payload() const override { return sample.payload; }
     Result<PlanRequest> convert(std::span<const Gripper> known) const override {
         if (sample.refused) return *sample.refused;
-        return read_request(sample, known);
+        return read_request(sample, sample.mesh_O, known);
     }
     double time_budget_s() const override { return asked_budget_s(sample); }
     RequestSize size() const override { return sample.size; }
@@ -94,6 +84,7 @@ bool write_service_reply(const ServiceCall& call, const Struct& reply,
 /// @return null for a malformed payload
 std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
                                                    const eprosima::fastdds::dds::SampleInfo& info,
-                                                   const PayloadGuard& guard);
+                                                   const PayloadGuard& guard,
+                                                   bool keep_payload = false);
 
 }  // namespace graspd::dds

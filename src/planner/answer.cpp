@@ -5,15 +5,6 @@
 namespace graspd::planner_detail {
 namespace {
 
-PlanStatus status_of(PlanErrorCode code) {
-    switch (code) {
-        case PlanErrorCode::kUnknownGripper: return PlanStatus::kUnknownGripper;
-        case PlanErrorCode::kUnknownObject: return PlanStatus::kUnknownObject;
-        case PlanErrorCode::kInternal: return PlanStatus::kInternalError;
-        default: return PlanStatus::kInvalidRequest;
-    }
-}
-
 std::string strategy_of(const std::vector<Grasp>& grasps) {
     if (grasps.empty()) return "";
     if (grasps.front().source == kCandidate) return "candidates";

@@ -17,6 +17,21 @@ const char* to_string(PlanStatus status) {
     return "UNKNOWN";
 }
 
+PlanStatus status_of(PlanErrorCode code) {
+    switch (code) {
+        case PlanErrorCode::kUnknownGripper: return PlanStatus::kUnknownGripper;
+        case PlanErrorCode::kUnknownObject: return PlanStatus::kUnknownObject;
+        case PlanErrorCode::kInternal:
+        case PlanErrorCode::kNoReply: return PlanStatus::kInternalError;
+        case PlanErrorCode::kInvalidInput:
+        case PlanErrorCode::kDegenerate:
+        case PlanErrorCode::kTooLarge:
+        case PlanErrorCode::kUnsupported:
+        case PlanErrorCode::kUnreadableFile: return PlanStatus::kInvalidRequest;
+    }
+    return PlanStatus::kInternalError;
+}
+
 const char* to_string(GraspSource source) {
     switch (source) {
         case kBoundary: return "boundary";

@@ -4,7 +4,6 @@
 
 #include "answer.hpp"
 #include "check_request.hpp"
-#include "graspd/base/fnv1a.hpp"
 #include "graspd/base/parallel.hpp"
 #include "graspd/base/settings.hpp"
 #include "graspd/base/stop.hpp"
@@ -27,6 +26,35 @@ constexpr double kGreatestMass_kg = 0.5;
 /// Named, because validate() is a gripper's too.
 std::optional<PlanError> check_settings(const PlannerConfig& config) {
     return validate<PlannerConfig>(config);
+}
+
+/// Prepares an object under its key.
+Result<PreparedObjectPtr> prepared_as(std::string object_key,
+                                      const std::variant<TriangleMesh, PointCloud>& object_O,
+                                      const PlannerConfig& config, StageLog& log) {
+    auto object = prepare_object(object_O, config, log);
+    if (!object) return object.error();
+    object.value().object_key = std::move(object_key);
+    return std::make_shared<const PreparedObject>(std::move(object).value());
+}
+
+/// Prepares the request's object unless it is there already; says so in the answer.
+std::optional<PlanError> make_ready(PreparedObjectPtr& object, const PlanRequest& request,
+                                    const PlannerConfig& config, Answer& answer) {
+    answer.reply.object_key = object ? object->object_key : object_key_of(request.object_O);
+    if (!object) {
+        auto fresh = prepared_as(answer.reply.object_key, request.object_O, config, answer.log);
+        if (!fresh) return fresh.error();
+        object = std::move(fresh).value();
+    } else {
+        if (object->settings != settings_of_preparation(config)) {
+            return PlanError{PlanErrorCode::kInvalidInput,
+                             "object " + object->object_key + " was prepared under other settings"};
+        }
+        for (const StageReport& stage : object->stages) answer.log.add(stage);
+    }
+    answer.reply.report.findings = object->findings;
+    return std::nullopt;
 }
 
 /// Gravity's direction as far as the request tells it.
@@ -143,21 +171,17 @@ std::string suggestion_for(const PlanRequest& request, const Found& found, Scene
 }
 
 /// Throws Stopped where the caller wants no more; `answer` then holds what was concluded.
-PlanReply plan_to_the_end(const PlanRequest& request, const PlannerConfig& config, Answer& answer) {
+PlanReply plan_to_the_end(const PlanRequest& request, PreparedObjectPtr& object,
+                          const PlannerConfig& config, Answer& answer) {
     if (const auto bad = check_settings(config)) return answer.refuse(*bad);
     if (const auto bad = check_request(request)) return answer.refuse(*bad);
-    answer.reply.object_key =
-        as_stage("object_key", [&] { return object_key_of(request.object_O); });
-
     // II-A: the object and its concavity.
-    const auto object = prepare_object(request.object_O, config, answer.log);
-    if (!object) return answer.refuse(object.error());
-    answer.reply.report.findings = object.value().findings;
-    const auto units = guess_units(object.value().size_m, request.grippers, config.guess_units);
+    if (const auto bad = make_ready(object, request, config, answer)) return answer.refuse(*bad);
+    const auto units = guess_units(object->size_m, request.grippers, config.guess_units);
     if (!units) return answer.refuse(units.error());
     if (units.value()) answer.reply.report.findings.push_back(*units.value());
 
-    Scene scene(request, object.value());
+    Scene scene(request, *object);
     const auto found = find_grasps(request, scene, config, answer.log);
     if (!found) return answer.refuse(found.error());
     answer.conclude(found.value(), scene.X_FP);
@@ -173,27 +197,11 @@ PlanReply plan_to_the_end(const PlanRequest& request, const PlannerConfig& confi
 
 }  // namespace
 
-std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O) {
-    std::uint64_t hash = kFnvOffset;
-    const auto add = [&](const auto& items) {
-        using Item = std::remove_cvref_t<decltype(items.front())>;
-        constexpr std::size_t kAtATime = 1 << 16;  // a few milliseconds
-        for (std::size_t first = 0; first < items.size(); first += kAtATime) {
-            stop_point();
-            const std::size_t count = std::min(kAtATime, items.size() - first);
-            const auto* bytes = reinterpret_cast<const char*>(items.data() + first);
-            hash = fnv1a({bytes, count * sizeof(Item)}, hash);
-        }
-    };
-    if (const auto* mesh = std::get_if<TriangleMesh>(&object_O)) {
-        add(mesh->vertices);
-        add(mesh->faces);
-    } else {
-        const auto& cloud = std::get<PointCloud>(object_O);
-        add(cloud.points);
-        if (cloud.sensor_origin) add(std::vector<Eigen::Vector3d>{*cloud.sensor_origin});
-    }
-    return to_hex(hash);
+Result<PreparedObjectPtr> prepare(const std::variant<TriangleMesh, PointCloud>& object_O,
+                                  const PlannerConfig& config) {
+    if (const auto bad = check_settings(config)) return *bad;
+    StageLog log;
+    return prepared_as(object_key_of(object_O), object_O, config, log);
 }
 
 double object_mass_kg(const PlanOptions& options, double volume_m3) {
@@ -203,10 +211,16 @@ double object_mass_kg(const PlanOptions& options, double volume_m3) {
 
 PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
                const StopQuery& stop_requested) {
+    PreparedObjectPtr object;
+    return plan(request, object, config, stop_requested);
+}
+
+PlanReply plan(const PlanRequest& request, PreparedObjectPtr& object, const PlannerConfig& config,
+               const StopQuery& stop_requested) {
     const StopScope stoppable(stop_requested);
     Answer answer(request);
     try {
-        return plan_to_the_end(request, config, answer);
+        return plan_to_the_end(request, object, config, answer);
     } catch (const Stopped& stopped) {
         return answer.stop(stopped);
     }

@@ -74,6 +74,7 @@ std::optional<PlanError> measure_by_tetrahedra(PreparedObject& object, const Pla
 Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointCloud>& object_O,
                                       const PlannerConfig& config, StageLog& log) {
     PreparedObject object;
+    object.settings = settings_of_preparation(config);
     const auto soup = surface_of(object_O, config, log, object.findings);
     if (!soup) return soup.error();
     auto closed = log.run("mesh/condition_mesh", soup.value().faces.size(),
@@ -108,6 +109,8 @@ Result<PreparedObject> prepare_object(const std::variant<TriangleMesh, PointClou
                          ? measure_by_any_angle(object, config, log)
                          : measure_by_tetrahedra(object, config, log);
     if (bad) return *bad;
+    object.stages = log.stages();
+    for (StageReport& stage : object.stages) stage.ms = 0.0;
     return object;
 }
 

@@ -43,6 +43,7 @@ public:
         for (const StageReport& stage : other.stages_) add(stage);
     }
 
+    const std::vector<StageReport>& stages() const { return stages_; }
     std::vector<StageReport> take() { return std::move(stages_); }
 
 private:

@@ -21,11 +21,13 @@
 #include "graspd/config/security.hpp"
 #include "graspd/config/version.hpp"
 #include "graspd/config/wire_names.hpp"
+#include "graspd/dds/payloads.hpp"
 #include "idle_watch.hpp"
 #include "memory_fence.hpp"
 #include "planner_service.hpp"
 #include "profile_interfaces.hpp"
 #include "request_line.hpp"
+#include "request_recorder.hpp"
 #include "supervisor.hpp"
 
 // graspd: the planner as a DDS participant. Here, and nowhere else, it is decided what is built
@@ -92,6 +94,7 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     dds.limits = {config.planner.condition_mesh.max_vertices,
                   config.planner.condition_mesh.max_faces,
                   config.planner.triangulate_cloud.limit_points, config.server.max_obstacle_faces};
+    dds.keep_payloads = !config.server.record_dir.empty();
     return Setup{config, std::move(dds), network.value().why, std::move(grippers).value(),
                  restarts_from_environment()};
 }
@@ -163,6 +166,32 @@ int fail(const PlanError& error) {
     return error.code == PlanErrorCode::kInternal ? kExitInternal : kExitUsage;
 }
 
+/// What writes requests to files; null where the configuration asks for none.
+Result<std::unique_ptr<RequestRecorder>> open_recorder(const Setup& setup) {
+    const ServerConfig& config = setup.config.server;
+    if (config.record_dir.empty()) return std::unique_ptr<RequestRecorder>();
+    return RequestRecorder::open(
+        {config.record_dir, config.record_max_requests, config.record_max_bytes, setup.dds.version,
+         setup.dds.config_hash},
+        {[&](const ObjectGeometry& geometry) {
+             PlanRequest request;
+             request.request_id = "object";
+             request.object_O = geometry;
+             request.grippers = {setup.grippers.front()};  // a request needs one
+             auto payload = request_payload(request, "");
+             return payload.ok() ? std::move(payload).value() : std::vector<std::uint8_t>{};
+         },
+         [](const std::string& what, std::uint64_t failures) {
+             spdlog::warn("event=record_failed failures={} what={}", failures, log_value(what));
+         }});
+}
+
+void close_recorder(RequestRecorder& recorder) {
+    recorder.close();
+    spdlog::info("event=recorded requests={} failures={}", recorder.recorded(),
+                 recorder.failures());
+}
+
 /// Wakes serve() as a signal from outside would, for a process that should not go on.
 void ask_for_the_end(std::atomic<bool>& is_worn_out, std::uint64_t abandoned) {
     spdlog::error("event=exhausted abandoned_plans={} what=\"ends with 1, to be started anew\"",
@@ -171,23 +200,35 @@ void ask_for_the_end(std::atomic<bool>& is_worn_out, std::uint64_t abandoned) {
     ::kill(::getpid(), SIGTERM);
 }
 
+/// What the service plans, writes and logs with. Refers to its arguments.
+ServiceParts parts_of(const Setup& setup, const std::unique_ptr<PlannerPort>& port,
+                      RequestRecorder* record, std::atomic<bool>& is_worn_out) {
+    return {setup.grippers,
+            [&](const PlanRequest& request, PreparedObjectPtr& object, const StopQuery& stop) {
+                spdlog::debug("event=planning id={}", log_value(request.request_id));
+                return plan(request, object, setup.config.planner, stop);
+            },
+            [&](const OutgoingReply& reply) { return port->write(reply); },
+            [&port, record](const Answer& answer) {
+                log_answer(answer);
+                if (record != nullptr) record->answered(answer, port->payload_of(answer.out));
+            },
+            [&] { ask_for_the_end(is_worn_out, setup.config.server.abandoned_plans); }};
+}
+
 /// Serves until a signal comes, or too many plans did not stop. @return the exit code
 int serve(const Setup& setup, const sigset_t& signals) {
+    const auto recorder = open_recorder(setup);
+    if (!recorder.ok()) return fail(recorder.error());
+    RequestRecorder* const record = recorder.value().get();
     std::unique_ptr<PlannerPort> port;
     std::atomic<bool> is_worn_out{false};
-    PlannerService service(
-        setup.config.server,
-        {setup.grippers,
-         [&](const PlanRequest& request, const StopQuery& stop_requested) {
-             spdlog::debug("event=planning id={}", log_value(request.request_id));
-             return plan(request, setup.config.planner, stop_requested);
-         },
-         [&](const OutgoingReply& reply) { return port->write(reply); }, log_answer,
-         [&] { ask_for_the_end(is_worn_out, setup.config.server.abandoned_plans); }});
+    PlannerService service(setup.config.server, parts_of(setup, port, record, is_worn_out));
     auto opened = PlannerPort::open(
         setup.dds,
         [&](auto request) {
             log_received(request->identity());
+            if (record != nullptr) record->received(*request);
             service.handle(std::move(request));
         },
         [&](const CancelOrder& order) { log_cancel(order, service.cancel(order)); },
@@ -221,6 +262,7 @@ int serve(const Setup& setup, const sigset_t& signals) {
     const bool confirmed = port->wait_acknowledged(kAcknowledgeWait);
     if (!confirmed) spdlog::warn("event=unconfirmed what=\"some replies were not acknowledged\"");
     log_end(service.counters(), *port);
+    if (record != nullptr) close_recorder(*record);
     const int code = is_worn_out ? kExitInternal : 0;
     if (!ended) std::_Exit(code);  // a planner that does not stop must not keep the process
     return code;

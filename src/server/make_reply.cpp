@@ -22,21 +22,6 @@ PlanReply make_reply(const IncomingRequest& to, PlanStatus status, std::string m
     return reply;
 }
 
-PlanStatus status_of(PlanErrorCode code) {
-    switch (code) {
-        case PlanErrorCode::kUnknownGripper: return PlanStatus::kUnknownGripper;
-        case PlanErrorCode::kUnknownObject: return PlanStatus::kUnknownObject;
-        case PlanErrorCode::kInternal:
-        case PlanErrorCode::kNoReply: return PlanStatus::kInternalError;
-        case PlanErrorCode::kInvalidInput:
-        case PlanErrorCode::kDegenerate:
-        case PlanErrorCode::kTooLarge:
-        case PlanErrorCode::kUnsupported:
-        case PlanErrorCode::kUnreadableFile: return PlanStatus::kInvalidRequest;
-    }
-    return PlanStatus::kInternalError;
-}
-
 }  // namespace
 
 PlanReply overloaded(const IncomingRequest& to) {

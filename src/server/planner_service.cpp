@@ -164,26 +164,32 @@ PlanReply PlannerService::process(const IncomingRequest& request, const StopQuer
     work.convert_ms = ms_since(start);
     if (!converted.ok()) return refused(request, converted.error());
     PlanRequest problem = std::move(converted).value();
-    const std::string& key = request.object_key();
-    if (!key.empty() && !fill_in_object(key, problem)) return unknown_object(request);
-    work.points = point_count(problem.object_O);
-    return plan_request(request, std::move(problem), stop_requested, work);
+    StoredObject object = known_object(request.object_key(), problem);
+    const bool sent = request.object_key().empty();
+    if (!sent && !object.geometry) return unknown_object(request);
+    if (!sent) work.named_object = object.geometry;
+    work.points = point_count(sent ? problem.object_O : *object.geometry);
+    return plan_request(request, std::move(problem), std::move(object), stop_requested, work);
 }
 
-/// Puts the object of an earlier request into this one.
-bool PlannerService::fill_in_object(const std::string& key, PlanRequest& problem) {
-    const auto object = objects_.find(key);
-    if (object != nullptr) problem.object_O = *object;
-    return object != nullptr;
+/// The object of an earlier request that this one names, or sends again.
+StoredObject PlannerService::known_object(const std::string& key, const PlanRequest& problem) {
+    if (!key.empty()) return objects_.find(key);
+    return objects_.find(object_key_of(problem.object_O), problem.object_O);
 }
 
 PlanReply PlannerService::plan_request(const IncomingRequest& request, PlanRequest problem,
-                                       const StopQuery& stop_requested, Work& work) {
+                                       StoredObject object, const StopQuery& stop_requested,
+                                       Work& work) {
     if (Clock::now() >= deadline_of(request)) return budget_spent(request);
+    const bool prepared = object.prepared != nullptr;
+    if (!prepared && object.geometry) problem.object_O = *object.geometry;
     const auto start = Clock::now();
-    PlanReply reply = parts_.plan(problem, stop_requested);
+    PlanReply reply = parts_.plan(problem, object.prepared, stop_requested);
     work.plan_ms = ms_since(start);
-    if (!reply.object_key.empty()) objects_.put(reply.object_key, std::move(problem.object_O));
+    if (!prepared && !reply.object_key.empty()) {
+        objects_.put(reply.object_key, std::move(problem.object_O), object.prepared);
+    }
     if (reply.status != PlanStatus::kPartial) return reply;
     if (reply.grasps.empty() && stop_.stop_requested()) return stopped(request);
     if (Clock::now() >= deadline_of(request)) {

@@ -29,6 +29,7 @@ struct Work {
     double queue_ms = 0.0;    ///< [ms] from receipt until a worker took it
     double convert_ms = 0.0;  ///< [ms] checking and converting
     double plan_ms = 0.0;     ///< [ms] in the planner
+    std::shared_ptr<const ObjectGeometry> named_object;  ///< of a request with an object_key
 };
 
 /// A reply on its way out, or just written.
@@ -42,7 +43,8 @@ struct Answer {
 /// What the service is made of; all of it may be replaced in tests.
 struct ServiceParts {
     std::vector<Gripper> grippers;  ///< those that a request may name
-    std::function<PlanReply(const PlanRequest&, const StopQuery&)> plan;  ///< on many threads
+    /// On many threads. The object: as plan() takes it, null where it is not known yet.
+    std::function<PlanReply(const PlanRequest&, PreparedObjectPtr&, const StopQuery&)> plan;
     std::function<bool(const OutgoingReply&)> write;  ///< on one thread; false: lost
     std::function<void(const Answer&)> log;           ///< likewise, after the write; may be empty
     /// Called once, on any thread, when as many plans were abandoned as are allowed; may be empty.
@@ -140,9 +142,9 @@ private:
     std::size_t cancel_those(Chosen&& chosen);
     PlanReply answer(const IncomingRequest& request, const DropFlag& dropped, Work& work);
     PlanReply process(const IncomingRequest& request, const StopQuery& stop_requested, Work& work);
-    PlanReply plan_request(const IncomingRequest& request, PlanRequest problem,
+    PlanReply plan_request(const IncomingRequest& request, PlanRequest problem, StoredObject object,
                            const StopQuery& stop_requested, Work& work);
-    bool fill_in_object(const std::string& key, PlanRequest& problem);
+    StoredObject known_object(const std::string& key, const PlanRequest& problem);
     bool write(const OutgoingReply& reply) const noexcept;
     void receive(const RequestPtr& request);
     void finish(const RequestPtr& request, const PlanReply& reply, const Work& work);

@@ -24,6 +24,10 @@ struct ServerConfig {
     std::uint32_t abandon_after_ms = 1000;      ///< [ms] beyond its budget: a plan is lost
     std::uint32_t idle_trim_ms = 5000;  ///< [ms] idle: freed memory goes to the system; 0: never
 
+    std::string record_dir;                     ///< requests are written there; empty: nowhere
+    std::uint32_t record_max_requests = 1000;   ///< of them that are kept
+    std::uint64_t record_max_bytes = 1u << 30;  ///< [bytes] that those may take
+
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
         constexpr std::uint64_t kTerabyte = std::uint64_t{1} << 40;
@@ -40,6 +44,9 @@ struct ServerConfig {
         visit("abandoned_plans", self.abandoned_plans, 0u, 1000u);
         visit("abandon_after_ms", self.abandon_after_ms, 1u, 3600000u);
         visit("idle_trim_ms", self.idle_trim_ms, 0u, 3600000u);
+        visit("record_dir", self.record_dir);
+        visit("record_max_requests", self.record_max_requests, 1u, 1000000u);
+        visit("record_max_bytes", self.record_max_bytes, std::uint64_t{1} << 16, kTerabyte);
     }
 };
 

@@ -173,7 +173,7 @@ void expect_consistent(const PlanReply& reply, const PlanRequest& request,
                        const PlannerConfig& config) {
     EXPECT_EQ(reply.request_id, request.request_id);
     EXPECT_EQ(reply.frame_id, request.frame_id);
-    EXPECT_EQ(reply.object_key.size(), 16U);
+    EXPECT_EQ(reply.object_key.size(), 32U);
     EXPECT_EQ(reply.strategy, strategy_of(reply));
     EXPECT_LE(reply.grasps.size(), request.options.max_grasps);
     EXPECT_LE(reply.report.near_misses.size(), 3U);

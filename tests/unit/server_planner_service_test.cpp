@@ -276,7 +276,7 @@ TEST(PlannerService, AnObjectIsKnownByItsKeyAfterItsFirstRequest) {
 TEST(PlannerService, CountsWhatCouldNotBeWritten) {
     Watched<int> writes;
     PlannerService service(Served::one_worker(4), {{},
-                                                   plan_at_once,
+                                                   without_objects(plan_at_once),
                                                    [&](const auto& out) -> bool {
                                                        writes.change([](int& count) { ++count; });
                                                        if (out.reply.request_id == "thrown")

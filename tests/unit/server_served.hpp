@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -44,9 +45,18 @@ private:
     Watched<bool> released_;
 };
 
+/// A planner that takes no notice of prepared objects.
+using PlainPlan = std::function<PlanReply(const PlanRequest&, const StopQuery&)>;
+inline decltype(ServiceParts::plan) without_objects(PlainPlan plan) {
+    return [plan = std::move(plan)](const PlanRequest& problem, PreparedObjectPtr&,
+                                    const StopQuery& stop) { return plan(problem, stop); };
+}
+
 /// A service whose replies end up in a list.
 class Served {
 public:
+    explicit Served(PlainPlan plan, ServerConfig config = one_worker(4))
+        : Served(without_objects(std::move(plan)), config) {}
     explicit Served(decltype(ServiceParts::plan) plan, ServerConfig config = one_worker(4))
         : service(config,
                   {{}, std::move(plan), [this](const auto& out) { return take(out); }, {}}) {

@@ -80,6 +80,9 @@ public:
     /// [m] Around all triangles, padded by the tolerance; empty without triangles.
     const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
+    /// Memory that this takes, with all that it owns [bytes].
+    std::uint64_t bytes() const;
+
 private:
     /// The up to four triangles of a leaf side by side, in the tree's units.
     struct Pack {

@@ -70,6 +70,7 @@ struct DdsSettings {
     std::uint32_t max_payload_bytes = 256u << 20;  ///< [byte] of a larger sample no more is read
                                                    ///< than who sent it
     RequestLimits limits;
+    bool keep_payloads = false;  ///< IncomingRequest::payload() has the bytes
 };
 
 }  // namespace graspd

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "graspd/base/result.hpp"
 #include "graspd/dds/dds_settings.hpp"
@@ -21,7 +22,7 @@ struct RequestIdentity {
     std::array<std::uint8_t, 16> writer{};  ///< GUID of the DDS writer: prefix, then entity id
     std::string client_id;           ///< its first 64 characters, unprintable ones shown as '?'
     std::string request_id;          ///< likewise; convert() refuses an id that this had to change
-    std::uint64_t payload_hash = 0;  ///< of the serialized payload as received
+    std::uint64_t payload_hash = 0;  ///< content_hash() of the serialized payload
 };
 
 /// How much geometry a request brings, counted before it is converted.
@@ -31,6 +32,12 @@ struct RequestSize {
     std::uint64_t points = 0;             ///< of the object's cloud
     std::uint64_t obstacle_vertices = 0;  ///< of all obstacles together
     std::uint64_t obstacle_faces = 0;
+};
+
+/// A request's bytes.
+struct ReceivedPayload {
+    std::vector<std::uint8_t> bytes;  ///< encapsulation header and members, as received
+    bool by_service = false;          ///< else by the topic
 };
 
 /// A request as the listener took it. Nothing has been converted yet, so taking it is cheap.
@@ -47,6 +54,9 @@ public:
     virtual double time_budget_s() const = 0;
     virtual RequestSize size() const = 0;
     virtual bool is_call() const = 0;  ///< by the service: its caller alone can read the answer
+
+    /// Null unless DdsSettings::keep_payloads asks for it.
+    virtual std::shared_ptr<const ReceivedPayload> payload() const { return nullptr; }
 
     /// Checks every field and converts it. With an object_key the object is left empty for the
     /// caller to fill in.
@@ -102,6 +112,8 @@ public:
     /// waited for, 100 ms at most. To be called from one thread. @return false: the reply is lost
     /// (and counted)
     virtual bool write(const OutgoingReply& reply) = 0;
+    /// What write() puts on the topic: encapsulation header and members. Any thread.
+    virtual std::vector<std::uint8_t> payload_of(const OutgoingReply& reply) const = 0;
     /// Writes what the planner says of itself to the topics status and diagnostics, and asserts
     /// that it is alive. To be called from one thread. @return false: not written
     virtual bool write_state(PlannerState state) = 0;

@@ -11,6 +11,7 @@
 
 #include "graspd/base/geometry.hpp"
 #include "graspd/base/gripper.hpp"
+#include "graspd/base/result.hpp"
 #include "graspd/grasp/score_grasp.hpp"
 
 namespace graspd {
@@ -32,6 +33,8 @@ enum class PlanStatus : std::uint8_t {
 };
 /// "OK", "NO_GRASP", "PARTIAL", ... as in JSON and in logs.
 const char* to_string(PlanStatus status);
+/// The status of a request that an error refuses.
+PlanStatus status_of(PlanErrorCode code);
 
 /// Where grasp candidates come from. Bits may be combined; 0 means all.
 enum GraspSource : std::uint8_t {

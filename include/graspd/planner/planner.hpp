@@ -3,10 +3,12 @@
 #include "graspd/base/stop.hpp"
 #include "graspd/planner/plan_types.hpp"
 #include "graspd/planner/planner_config.hpp"
+#include "graspd/planner/prepared_object.hpp"
 
 namespace graspd {
 
-/// The key under which an object's geometry is known: a hash of its points and faces as received.
+/// The key under which an object's geometry is known: content_key() of its points, faces and sensor
+/// origin as received, 32 hexadecimal digits.
 std::string object_key_of(const std::variant<TriangleMesh, PointCloud>& object_O);
 
 /// The mass that plan() takes an object of this volume for [kg]: the request's, else that of
@@ -22,6 +24,18 @@ double object_mass_kg(const PlanOptions& options, double volume_m3);
 /// from the stages' wall times in the report, so safe to call from any number of threads; the same
 /// request and configuration give the same reply whatever runs beside it.
 PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
+               const StopQuery& stop_requested = {});
+
+/// The same for an object that may have been prepared before. The reply is that of the plan above
+/// to the last bit, but that stages whose work was done before report the counts of that work and
+/// 0 ms.
+///
+/// @param object  in: request.object_O as prepare() or an earlier plan made it, and then
+///                request.object_O itself is not looked at; or null: it is prepared. Out: the
+///                prepared object for later plans; null where it could not be prepared, or the
+///                request was refused before. One that was prepared under other settings of the
+///                stages before the search is refused as kInvalidRequest.
+PlanReply plan(const PlanRequest& request, PreparedObjectPtr& object, const PlannerConfig& config,
                const StopQuery& stop_requested = {});
 
 }  // namespace graspd
