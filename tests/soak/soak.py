@@ -38,6 +38,7 @@ WARM_REQUESTS = 1500  # the caches of replies and objects are full
 JUDGED_REQUESTS = 3000
 MAX_GROWTH = 0.01
 LINK_DOWN_S = 1.0
+STALL_S = 120  # without one answer more: something hangs
 CONFIG = "supervisor: {first_wait_s: 0.1, longest_wait_s: 1}\n"
 
 
@@ -196,7 +197,25 @@ class Soak:
             for i in range(CLIENTS)
         ]
 
+    def watch_until(self, clients, is_over, look):
+        """Calls look(answers so far) until is_over(answers so far) or no client runs any more."""
+        last, since = -1, time.monotonic()
+        while any(client.running() for client in clients):
+            done = sum(len(client.answers()) for client in clients)
+            if is_over(done):
+                return
+            look(done)
+            if done != last:
+                last, since = done, time.monotonic()
+            if time.monotonic() - since > STALL_S:
+                self.require(False, f"no answer within {STALL_S} s, {done} before")
+                for client in clients:
+                    client.output.process.kill()
+                return
+            time.sleep(0.1)
+
     def finish(self, clients, phase):
+        self.watch_until(clients, lambda done: False, lambda done: None)
         latencies = collections.defaultdict(list)
         total = 0
         for client in clients:
@@ -219,9 +238,8 @@ class Soak:
         files = descriptors(pid)
         clients = self.start_clients("steady", requests)
         samples = []
-        while any(client.running() for client in clients):
-            samples.append((sum(len(c.answers()) for c in clients), memory_kb(pid)))
-            time.sleep(0.2)
+        self.watch_until(clients, lambda done: False,
+                         lambda done: samples.append((done, memory_kb(pid))))
         latencies = self.finish(clients, "steady")
         samples.append((requests, memory_kb(pid)))
         self.require(self.daemon.participant() == pid, "the participant died by itself")
@@ -261,9 +279,7 @@ class Soak:
         done_so_far = collections.Counter()
         for turn in range(disturbances):
             at = requests * (turn + 1) // (disturbances + 2)
-            while (sum(len(c.answers()) for c in clients) < at
-                   and any(c.running() for c in clients)):
-                time.sleep(0.05)
+            self.watch_until(clients, lambda done, at=at: done >= at, lambda done: None)
             done_so_far[self.disturb(turn, clients)] += 1
         latencies = self.finish(clients, "chaos")
         for name, count in done_so_far.items():
