@@ -36,8 +36,8 @@ PlanReply refused(const IncomingRequest& to, const PlanError& error);
 /// When the time budget, counted from receipt, is over.
 std::chrono::steady_clock::time_point deadline_of(const IncomingRequest& request);
 
-/// Memory that planning takes at its peak, beside the payload [bytes]: an upper estimate from
-/// measured plans (docs/operations.md, Limits).
+/// Memory that planning takes at its peak, beside the payload [bytes]: an upper estimate from the
+/// counts (docs/operations.md, Limits).
 std::uint64_t needed_bytes(const RequestSize& size);
 
 /// Vertices of a mesh or points of a cloud.

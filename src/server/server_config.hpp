@@ -18,7 +18,7 @@ struct ServerConfig {
     std::uint64_t object_cache_bytes = 256 << 20;  ///< [bytes] of objects kept under their keys
     std::uint32_t max_payload_bytes = 256u << 20;  ///< [bytes] a larger request is refused
     std::uint32_t max_obstacle_faces = 1000000;    ///< of all obstacles of a request together
-    std::uint64_t max_memory_bytes = std::uint64_t{4} << 30;  ///< [bytes] for planning a request
+    std::uint64_t max_memory_bytes = std::uint64_t{6} << 30;  ///< [bytes] for planning a request
     std::uint64_t max_address_space_bytes = 0;  ///< [bytes] of the process; 0: no limit
     std::uint32_t abandoned_plans = 2;          ///< after so many the process ends; 0: never
     std::uint32_t abandon_after_ms = 1000;      ///< [ms] beyond its budget: a plan is lost

@@ -10,8 +10,15 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "graspd/base/triangle_bvh.hpp"
+#include "graspd/concavity/outer_hull.hpp"
+#include "graspd/concavity/shortest_path_concavity.hpp"
+#include "graspd/mesh/condition_mesh.hpp"
+#include "graspd/mesh/principal_frame.hpp"
+#include "graspd/mesh/sample_surface.hpp"
 #include "support/plan_checks.hpp"
 #include "support/shapes.hpp"
 
@@ -96,24 +103,36 @@ TEST(PlanStops, WithWhatTheCompletedRoundsGave) {
     EXPECT_EQ(plan(request, {}, std::ref(last)).status, PlanStatus::kOk);
 }
 
-// No stage is deaf: stopped at places that are spread over a whole plan, each stage that works on
-// all of a mesh is met.
-TEST(PlanStops, WithinEveryLongStage) {
-    const PlanRequest request = request_for(test::sphere(0.03, 60000));
-    StopAfter never(std::numeric_limits<std::size_t>::max());
-    ASSERT_EQ(plan(request, {}, std::ref(never)).status, PlanStatus::kOk);
-    std::set<std::string> met;
-    const std::size_t calls = never.calls;
-    for (std::size_t n = 0; n < calls; n += 1 + (n < calls / 8 ? n / 32 : calls / 40)) {
-        StopAfter stop(n);
-        const PlanReply reply = plan(request, {}, std::ref(stop));
-        const std::string& text = reply.message;
-        met.insert(text.substr(0, text.find(';')));
-    }
-    for (const char* stage :
-         {"mesh/condition_mesh", "mesh/principal_frame", "base/triangle_bvh",
-          "concavity/shortest_path_concavity", "mesh/sample_surface", "planner/order_axes"}) {
-        EXPECT_TRUE(met.contains(std::string("stopped in ") + stage)) << stage;
+/// How often a piece of work asks whether it is to stop.
+template <class Work>
+std::size_t asks_of(Work&& work) {
+    std::atomic<std::size_t> asks = 0;
+    const StopQuery query = [&] { return ++asks == 0; };
+    const StopScope scope(query);
+    work();
+    return asks;
+}
+
+// No stage that goes over a whole mesh is deaf for longer than a thousand faces take; and it throws
+// when it is told to stop, which it answers without a stop.
+TEST(PlanStops, WithinEveryStageOfAWholeMesh) {
+    const TriangleMesh mesh = test::sphere(0.03, 60000);
+    const std::vector<double> depth_m(mesh.vertices.size(), 0.0);
+    const std::vector<std::pair<const char*, std::function<void()>>> stages = {
+        {"condition_mesh", [&] { ASSERT_TRUE(condition_mesh(mesh, {}).ok()); }},
+        {"principal_frame", [&] { ASSERT_TRUE(principal_frame(mesh).ok()); }},
+        {"outer_hull", [&] { ASSERT_TRUE(outer_hull(mesh.vertices).ok()); }},
+        {"triangle_bvh", [&] { const TriangleBvh tree(mesh, 1e-9); }},
+        {"measure_concavity", [&] { ASSERT_TRUE(measure_concavity(mesh, {}).ok()); }},
+        {"sample_surface", [&] { ASSERT_TRUE(sample_surface(mesh, depth_m, 0.02, {}).ok()); }},
+        {"object_key", [&] { ASSERT_FALSE(object_key_of(mesh).empty()); }},
+    };
+    const StopQuery stop = [] { return true; };
+    for (const auto& [name, stage] : stages) {
+        const bool is_hash = std::string(name) == "object_key";  // 65536 items take no longer
+        EXPECT_GE(asks_of(stage), is_hash ? 2U : mesh.faces.size() / 1024) << name;
+        const StopScope scope(stop);
+        EXPECT_THROW(stage(), Stopped) << name;
     }
 }
 
