@@ -69,7 +69,6 @@ void ReceivedSample::read(std::span<std::uint8_t> bytes) {
         support_plane() >> obstacles() >> obstacle_cloud() >> approach_cones() >>
         keep_out_boxes() >> options();
     payload_hash = content_hash(std::as_bytes(bytes));
-    if (payload) payload->bytes.assign(bytes.begin(), bytes.end());
 }
 
 bool ReceivedSample::read(std::span<std::uint8_t> bytes, const PayloadGuard& guard) {
@@ -82,6 +81,8 @@ bool ReceivedSample::read(std::span<std::uint8_t> bytes, const PayloadGuard& gua
     };
     refused = too_many_bytes(bytes.size(), guard.max_payload_bytes);
     if (!refused && !is_well_formed(bytes, *layout, count)) return false;
+    if (refused) payload = nullptr;  // no file for what no memory is spent on
+    if (payload) payload->bytes.assign(bytes.begin(), bytes.end());
     if (!refused) refused = counts.over(guard.limits);
     if (refused) {
         payload_hash =

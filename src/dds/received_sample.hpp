@@ -19,7 +19,9 @@ struct PayloadGuard;
 struct ReceivedSample : wire::GraspRequest_ {
     TriangleMesh mesh_O;             ///< [m] every vertex and face as it stands; mesh() is empty
     std::uint64_t payload_hash = 0;  ///< content_hash() of the payload
-    std::shared_ptr<ReceivedPayload> payload;  ///< where there is one, read() leaves the bytes here
+    /// Where there is one, the guarded read() leaves the bytes here; those of too large a payload
+    /// it does not keep, and this becomes null.
+    std::shared_ptr<ReceivedPayload> payload;
 
     std::chrono::steady_clock::time_point received;  ///< before it was read
     RequestSize size;

@@ -50,6 +50,7 @@ std::string planner_detail::settings_of_preparation(const PlannerConfig& config)
     SettingBytes settings;
     settings("", config.triangulate_cloud);
     settings("", config.condition_mesh);
+    settings("", config.face_sensor);
     settings("", config.vertex_concavity);
     settings("", config.shortest_path_concavity);
     settings("", config.tetrahedral_concavity);

@@ -143,5 +143,29 @@ TEST(ReceivedSample, TheGuardStandsBeforeIt) {
     }
 }
 
+// Whoever records requests wants those that are refused by a count too, but not those that are too
+// large to be read.
+TEST(ReceivedSample, KeepsItsBytesWhereThatIsAskedFor) {
+    Bytes bytes = serialized(full_sample(), Cdr::LITTLE_ENDIANNESS);
+    const auto kept = [&bytes](const PayloadGuard& guard) {
+        ReceivedSample sample;
+        sample.payload = std::make_shared<ReceivedPayload>();
+        EXPECT_TRUE(sample.read(bytes, guard));
+        return sample;
+    };
+    PayloadGuard guard;
+    EXPECT_FALSE(kept(guard).refused);
+    EXPECT_EQ(kept(guard).payload->bytes, bytes);
+    guard.limits.max_faces = 2;
+    EXPECT_TRUE(kept(guard).refused);
+    EXPECT_EQ(kept(guard).payload->bytes, bytes);
+    guard.max_payload_bytes = static_cast<std::uint32_t>(bytes.size() - 1);
+    EXPECT_TRUE(kept(guard).refused);
+    EXPECT_EQ(kept(guard).payload, nullptr);
+    ReceivedSample plain;
+    EXPECT_TRUE(plain.read(bytes, PayloadGuard{}));
+    EXPECT_EQ(plain.payload, nullptr);
+}
+
 }  // namespace
 }  // namespace graspd::dds

@@ -128,6 +128,7 @@ TEST(PreparedObject, OtherSettingsOfThePreparationAreRefused) {
     EXPECT_TRUE(refused([](PlannerConfig& c) { c.vertex_concavity.method = "tetrahedral"; }));
     EXPECT_TRUE(refused([](PlannerConfig& c) { c.shortest_path_concavity.start_offset *= 2; }));
     EXPECT_TRUE(refused([](PlannerConfig& c) { c.triangulate_cloud.max_points = 11; }));
+    EXPECT_TRUE(refused([](PlannerConfig& c) { c.face_sensor.back_thickness *= 2; }));
 }
 
 TEST(ObjectKey, IsOfEverythingThatMakesAnObject) {
