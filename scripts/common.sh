@@ -2,6 +2,9 @@
 
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
+# What another checkout of the same sources has compiled is as good (ccache).
+export CCACHE_BASEDIR=${CCACHE_BASEDIR-$source_dir} CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR-1}
+
 # How many compilers may run at once: one a processor, but 1.5 GB of free memory each (the CGAL files
 # need 1 GB).
 build_jobs() {
