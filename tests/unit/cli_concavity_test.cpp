@@ -156,7 +156,7 @@ protected:
         return testing::TempDir() + "concavity_" + std::to_string(getpid()) + end;
     }
 
-    ObjectArguments object_{temporary(".off"), 0.01};
+    ObjectArguments object_{temporary(".off"), 0.01, ""};
     OutputArguments output_{"table", temporary(".txt"), ""};
     std::vector<Vector3d> vertices_;
 };
