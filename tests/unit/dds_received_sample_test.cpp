@@ -132,14 +132,13 @@ TEST(ReceivedSample, TheGuardStandsBeforeIt) {
         std::make_shared<PayloadGuard>());
     const Bytes bytes = serialized(full_sample(), Cdr::LITTLE_ENDIANNESS);
     for (std::size_t size = 0; size <= bytes.size(); ++size) {
-        Bytes part(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
-        eprosima::fastrtps::rtps::SerializedPayload_t payload;
-        payload.data = part.data();
-        payload.length = static_cast<std::uint32_t>(size);
+        const auto length = static_cast<std::uint32_t>(size);
+        eprosima::fastrtps::rtps::SerializedPayload_t payload(length);
+        std::copy_n(bytes.begin(), size, payload.data);
+        payload.length = length;
         const std::unique_ptr<ReceivedSample> sample(
             static_cast<ReceivedSample*>(type.createData()));
         EXPECT_EQ(type.deserialize(&payload, sample.get()), size == bytes.size()) << size;
-        payload.data = nullptr;
     }
 }
 
