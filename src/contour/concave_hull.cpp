@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -81,10 +82,7 @@ public:
                 Kernel::Point_2(points[i].x() - mean.x(), points[i].y() - mean.y()), i);
         }
         mesh_.insert(numbered.begin(), numbered.end());
-        for (const auto& face : mesh_.finite_face_handles()) {
-            face->info() = std::sqrt(CGAL::squared_radius(
-                face->vertex(0)->point(), face->vertex(1)->point(), face->vertex(2)->point()));
-        }
+        for (const auto& face : mesh_.finite_face_handles()) face->info() = radius_m(face);
     }
 
     /// For each point on the border of the triangles whose circles fit `alpha_m` the next one, with
@@ -111,6 +109,18 @@ private:
     using Mesh =
         CGAL::Delaunay_triangulation_2<Kernel,
                                        CGAL::Triangulation_data_structure_2<Vertices, Faces>>;
+
+    /// Of the circumscribed circle; infinite where the corners lie in line as far as doubles tell,
+    /// which the exact predicates behind the triangulation need not agree with.
+    static double radius_m(const Mesh::Face_handle& face) {
+        const auto &p = face->vertex(0)->point(), &q = face->vertex(1)->point(),
+                   &r = face->vertex(2)->point();
+        const auto a = q - p, b = r - p;
+        if (CGAL::determinant(a.x(), a.y(), b.x(), b.y()) == 0.0) {
+            return std::numeric_limits<double>::infinity();
+        }
+        return std::sqrt(CGAL::squared_radius(p, q, r));
+    }
 
     bool fits(const Mesh::Face_handle& face, double alpha_m) const {
         return !mesh_.is_infinite(face) && face->info() <= alpha_m;
