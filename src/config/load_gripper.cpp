@@ -68,8 +68,8 @@ std::optional<PlanError> read_parts(const std::filesystem::path& file, const YAM
     if (!node.IsSequence()) return bad_value(file, node, "convex_parts", kRow);
     for (const YAML::Node& entry : node) {
         const std::string key = "convex_parts[" + std::to_string(parts.size()) + "]";
-        if (!entry.IsMap() || !entry["member"].IsDefined() || !entry["points"].IsSequence() ||
-            entry.size() != 2) {
+        if (!entry.IsMap() || !entry["member"].IsDefined() || !entry["points"].IsDefined() ||
+            !entry["points"].IsSequence() || entry.size() != 2) {
             return bad_value(file, entry, key, kRow);
         }
         const auto member = std::ranges::find(kMembers, entry["member"].Scalar());

@@ -192,16 +192,32 @@ struct ParamsFile {
     const std::filesystem::path& file;
     std::string node;  // full name
     RosParameters parameters;
+    std::size_t groups = 0;  // that were walked
 };
+
+// An alias (*name) may stand for a group that holds it, or groups may double at every level: both
+// are small files without an end.
+constexpr int kMostNesting = 32;
+constexpr std::size_t kMostGroups = 100000;
+
+std::optional<PlanError> check_size(const YAML::Node& group, const std::string& key, int depth,
+                                    ParamsFile& to) {
+    if (depth <= kMostNesting && ++to.groups <= kMostGroups) return std::nullopt;
+    return bad_value(to.file, group, key,
+                     depth > kMostNesting
+                         ? "is nested deeper than " + std::to_string(kMostNesting) + " groups"
+                         : "is one group more than " + std::to_string(kMostGroups));
+}
 
 std::string joined(std::string left, char separator, const std::string& right) {
     if (!left.empty() && left.back() != separator) left += separator;
     return left += right;
 }
 
-std::optional<PlanError> add_group(const YAML::Node& group, const std::string& prefix,
+std::optional<PlanError> add_group(const YAML::Node& group, const std::string& prefix, int depth,
                                    ParamsFile& to) {
     const std::string place = prefix.empty() ? "ros__parameters" : prefix;
+    if (auto error = check_size(group, place, depth, to)) return error;
     if (!group.IsMap()) return bad_value(to.file, group, place, "must be a group of parameters");
     std::set<std::string> seen;
     for (const auto& entry : group) {
@@ -217,15 +233,16 @@ std::optional<PlanError> add_group(const YAML::Node& group, const std::string& p
             to.parameters.emplace_back(name, *std::move(value));
         } else if (!entry.second.IsMap()) {
             return bad_value(to.file, entry.second, name, "must be one value (no list)");
-        } else if (auto error = add_group(entry.second, name, to)) {
+        } else if (auto error = add_group(entry.second, name, depth + 1, to)) {
             return error;
         }
     }
     return std::nullopt;
 }
 
-std::optional<PlanError> add_nodes(const YAML::Node& group, const std::string& key,
+std::optional<PlanError> add_nodes(const YAML::Node& group, const std::string& key, int depth,
                                    ParamsFile& to) {
+    if (auto error = check_size(group, key, depth, to)) return error;
     if (!group.IsMap()) {
         return bad_value(to.file, group, key, "must be a group of keys with ros__parameters in it");
     }
@@ -235,14 +252,15 @@ std::optional<PlanError> add_nodes(const YAML::Node& group, const std::string& k
         }
         const std::string& word = entry.first.Scalar();
         if (word != "ros__parameters") {
-            if (auto error = add_nodes(entry.second, joined(key, '/', word), to)) return error;
+            const std::string inner = joined(key, '/', word);
+            if (auto error = add_nodes(entry.second, inner, depth + 1, to)) return error;
             continue;
         }
         if (key.empty()) return bad_value(to.file, entry.second, word, "must stand below a node");
         const auto ours = node_key_matches(key, to.node);
         if (!ours.ok()) return invalid(to.file.string() + ": " + ours.error().detail);
         if (!ours.value()) continue;
-        if (auto error = add_group(entry.second, "", to)) return error;
+        if (auto error = add_group(entry.second, "", depth + 1, to)) return error;
     }
     return std::nullopt;
 }
@@ -288,9 +306,9 @@ Result<std::string> resolve_name(const RosArguments& ros, const std::string& nam
 Result<RosParameters> read_params_file(const std::filesystem::path& file, const RosArguments& ros) {
     const auto root = config_detail::load_yaml(file);
     if (!root.ok()) return root.error();
-    ParamsFile to{file, full_node_name(ros), {}};
+    ParamsFile to{file, full_node_name(ros), {}, 0};
     if (root.value().IsNull()) return to.parameters;  // an empty file says nothing
-    if (auto error = add_nodes(root.value(), "", to)) return *std::move(error);
+    if (auto error = add_nodes(root.value(), "", 0, to)) return *std::move(error);
     return std::move(to.parameters);
 }
 

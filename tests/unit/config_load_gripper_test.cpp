@@ -91,6 +91,8 @@ TEST_F(LoadGripper, WrongKeysTypesAndRangesAreNamedWithTheFile) {
     EXPECT_THAT(error_of(good + "pad_travel: [{opening: 0.1, pad_z: 0.1}, "
                                 "{opening: 0.1, pad_z: 0.2}]\n"),
                 HasSubstr("does not rise"));
+    EXPECT_THAT(error_of(good + "convex_parts: [{member: palm, hull: []}]\n"),
+                HasSubstr("convex_parts[0] = (a group of keys) must be {member: "));
     EXPECT_THAT(error_of("name: two words\n" + good.substr(good.find('\n') + 1)),
                 HasSubstr("name = two words must be"));
 }

@@ -253,6 +253,9 @@ TEST_F(ReadParamsFile, AnythingElseIsAnErrorThatNamesTheKey) {
         {"/foo: {/*: {ros__parameters: {a: 1}}}", "node = /foo//* must not be empty"},
         {"/gr*: {ros__parameters: {a: 1}}", "node = /gr*"},
         {"[1]", "the file = (a list)"},
+        // An alias for a group that holds it once used up the stack.
+        {"&a {b: *a}", "is nested deeper than 32 groups"},
+        {"graspd: {ros__parameters: &a {b: *a}}", "is nested deeper than 32 groups"},
     };
     for (const auto& [text, detail] : cases) {
         const auto got = read(text);
@@ -263,6 +266,18 @@ TEST_F(ReadParamsFile, AnythingElseIsAnErrorThatNamesTheKey) {
     EXPECT_EQ(read("a: [").error().code, PlanErrorCode::kUnreadableFile);
     EXPECT_EQ(read_params_file("/nowhere.yaml", {}).error().code, PlanErrorCode::kUnreadableFile);
     EXPECT_THAT(read("").value(), IsEmpty());
+}
+
+// Groups that double at every level: 30 lines for 2^30 groups.
+TEST_F(ReadParamsFile, DoublingAliasesEnd) {
+    std::string text = "n0: &n0 {ros__parameters: {x: 1}}\n";
+    for (int i = 1; i < 30; ++i) {
+        const std::string last = "*n" + std::to_string(i - 1), name = "n" + std::to_string(i);
+        text += name + ": &" + name + " {a: " + last + ", b: " + last + "}\n";
+    }
+    const auto got = read(text);
+    ASSERT_FALSE(got.ok());
+    EXPECT_THAT(got.error().detail, HasSubstr("is one group more than 100000"));
 }
 
 }  // namespace
