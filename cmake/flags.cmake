@@ -5,16 +5,21 @@ target_compile_options(graspd_options INTERFACE -ffp-contract=off)
 if(NOT GRASPD_PORTABLE AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|amd64|AMD64")
   target_compile_options(graspd_options INTERFACE -march=x86-64-v2)
 endif()
-# Null pointers end a program by themselves; the checks for them (and for alignment, object sizes and
-# virtual tables) double and treble the time that a file full of templates takes to compile.
+# What a sanitizer finds ends the program: else no test would fail by it. Null pointers end a program
+# by themselves; the checks for them (and for alignment, object sizes and virtual tables) double and
+# treble the time that a file full of templates takes to compile.
 # graspd_not_sanitized, after graspd_options: for sources that are another library's templates.
 add_library(graspd_not_sanitized INTERFACE)
 if(GRASPD_SANITIZE)
   target_compile_options(graspd_options INTERFACE
     -fsanitize=${GRASPD_SANITIZE} -fno-sanitize=null,alignment,object-size,vptr
-    -fno-omit-frame-pointer)
+    -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(graspd_options INTERFACE -fsanitize=${GRASPD_SANITIZE})
   target_compile_options(graspd_not_sanitized INTERFACE -fno-sanitize=all)
+endif()
+# What libFuzzer watches to see where an input leads; everything of ours, not other libraries.
+if(GRASPD_BUILD_FUZZ)
+  target_compile_options(graspd_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # -Wno-restrict: g++ 12 sees an overlap in `"text" + std::string()` that is not there.
@@ -22,7 +27,7 @@ add_library(graspd_warnings INTERFACE)
 target_compile_options(graspd_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
   -Wold-style-cast -Wcast-align -Woverloaded-virtual -Wdouble-promotion -Wimplicit-fallthrough
-  -Wno-restrict)
+  -Wno-restrict $<$<CXX_COMPILER_ID:Clang>:-Wno-unknown-warning-option>)
 # Instrumented code of the standard library looks uninitialised to g++ 12.
 if(GRASPD_SANITIZE)
   target_compile_options(graspd_warnings INTERFACE -Wno-maybe-uninitialized)

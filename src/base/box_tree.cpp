@@ -180,9 +180,10 @@ private:
             counts[bin] += cluster.count();
         }
         const int best = best_border(boxes, counts);
-        const auto right =
-            std::ranges::partition(part, [&](const Cluster& c) { return bin_of(c) < best; });
-        return static_cast<std::uint32_t>(right.begin() - part.begin()) + first;
+        // Not of std::ranges: clang 14 cannot read the subrange that this gives.
+        const auto right = std::partition(part.begin(), part.end(),
+                                          [&](const Cluster& c) { return bin_of(c) < best; });
+        return static_cast<std::uint32_t>(right - part.begin()) + first;
     }
 
     /// The first bin of the right part. The first and the last bin are never empty.
