@@ -121,7 +121,7 @@ TEST(OverdueWork, TwoAbandonedPlansExhaustTheProcessOnce) {
     Watched<int> exhausted;
     Watched<int> written;
     PlannerService service(impatient(2), {{},
-                                          without_objects(std::ref(planner)),
+                                          test::without_objects(std::ref(planner)),
                                           [&](const auto&) {
                                               written.change([](int& count) { ++count; });
                                               return true;

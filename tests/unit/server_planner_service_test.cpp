@@ -21,6 +21,7 @@ using test::request;
 using test::Served;
 using test::SlowPlanner;
 using test::Watched;
+using test::without_objects;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
