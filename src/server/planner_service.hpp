@@ -29,7 +29,7 @@ struct Work {
     double queue_ms = 0.0;    ///< [ms] from receipt until a worker took it
     double convert_ms = 0.0;  ///< [ms] checking and converting
     double plan_ms = 0.0;     ///< [ms] in the planner
-    std::shared_ptr<const ObjectGeometry> named_object;  ///< of a request with an object_key
+    std::shared_ptr<const ObjectGeometry> named_object = {};  ///< of a request with an object_key
 };
 
 /// A reply on its way out, or just written.
