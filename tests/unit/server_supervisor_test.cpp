@@ -87,7 +87,7 @@ protected:
     std::filesystem::path file(const std::string& name, bool locked) {
         const auto path = folder_ / name;
         open_.push_back(::open(path.c_str(), O_CREAT | O_RDONLY | O_CLOEXEC, 0600));
-        if (locked) EXPECT_EQ(::flock(open_.back(), LOCK_EX), 0);
+        if (locked && ::flock(open_.back(), LOCK_EX) != 0) ADD_FAILURE() << "no lock on " << name;
         return path;
     }
     void release() {
