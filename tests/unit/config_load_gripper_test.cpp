@@ -79,8 +79,9 @@ TEST_F(LoadGripper, AMissingDimensionIsNamedAndNeverGuessed) {
 
 TEST_F(LoadGripper, WrongKeysTypesAndRangesAreNamedWithTheFile) {
     const std::string good = kComplete;
-    EXPECT_THAT(error_of(good + "colour: 3\n"), AllOf(HasSubstr("a.yaml:10: unknown key colour"),
-                                                      HasSubstr("pad_travel, convex_parts)")));
+    EXPECT_THAT(error_of(good + "colour: 3\n"),
+                AllOf(HasSubstr("a.yaml:10: unknown key colour"),
+                      HasSubstr("pad_travel, convex_parts, moveit)")));
     EXPECT_THAT(error_of(good + "palm_z: low\n"), HasSubstr("palm_z = low must be a number"));
     EXPECT_THAT(error_of(good + "min_width: 0.2\n"),
                 AllOf(HasSubstr("a.yaml"), HasSubstr("min_width = 0.2 is outside [0, 0.1]")));

@@ -55,10 +55,10 @@ const Case kCases[] = {
     {"BroomHead", {0.3, 0.1, 0.84}, '-', 0},
     {"Plank", {2.0, 0.1, 0.02}, 's', 0.01},
     {"CarDoor", {1.2, 1.0, 0.15}, 's', 0.01},
-    {"Pole", {12.0, 0.03, 0.03}, 's', 0.001},   // long, but of a section that fits
+    {"Pole", {12.0, 0.03, 0.03}, 's', 0.01},    // long, but of a section that fits
     {"Container", {6.1, 2.4, 2.6}, 's', 0.01},  // 72 openings
     {"MugInMillimetres", {120, 80, 100}, 'r', 0.001},
-    {"ScrewInMillimetres", {20, 5, 5}, 'r', 0.001},
+    {"ScrewInMillimetres", {20, 5, 5}, 'r', 0.01},  // 2.35 openings in cm, 0.235 in mm
     {"RulerInMillimetres", {300, 30, 1}, 'r', 0.001},
     {"MugInCentimetres", {12, 8, 10}, 'r', 0.01},
     {"BowlInCentimetres", {8.4, 8.4, 4}, 's', 0.01},  // 98.8 openings: just not refused
