@@ -21,8 +21,8 @@ using testing::IsEmpty;
 /// A request that knows its bytes.
 struct RecordedRequest : test::FakeRequest {
     std::shared_ptr<const ReceivedPayload> bytes;
-    RecordedRequest(const std::string& id, std::vector<std::uint8_t> payload)
-        : FakeRequest(3, id),
+    RecordedRequest(const std::string& name, std::vector<std::uint8_t> payload)
+        : FakeRequest(3, name),
           bytes(std::make_shared<ReceivedPayload>(ReceivedPayload{std::move(payload), true})) {}
     std::shared_ptr<const ReceivedPayload> payload() const override { return bytes; }
 };
