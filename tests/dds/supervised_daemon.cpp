@@ -40,11 +40,15 @@ bool SupervisedDaemon::wait_restarted(std::size_t crashes) const {
 }
 
 std::vector<std::uint8_t> aborting_datagram() {
-    std::vector<std::uint8_t> bytes = {'R', 'T', 'P', 'S', 2, 3, 1, 15};  // version 2.3, eProsima
-    bytes.resize(20);                                                     // GUID prefix
-    bytes.insert(bytes.end(), {0x80, 0x01, 56, 0});  // statistics, little endian, length
-    bytes.resize(bytes.size() + 56);
-    bytes.insert(bytes.end(), {0x01, 0x01, 0, 0});  // PAD
+    constexpr std::size_t kHeader = 20;  // with a GUID prefix of zeros
+    constexpr std::size_t kBody = 56;
+    std::vector<std::uint8_t> bytes(kHeader + 4 + kBody + 4);
+    const auto put = [&](std::size_t at, std::initializer_list<std::uint8_t> what) {
+        std::ranges::copy(what, bytes.begin() + static_cast<std::ptrdiff_t>(at));
+    };
+    put(0, {'R', 'T', 'P', 'S', 2, 3, 1, 15});     // version 2.3, eProsima
+    put(kHeader, {0x80, 0x01, kBody, 0});          // statistics, little endian, length
+    put(kHeader + 4 + kBody, {0x01, 0x01, 0, 0});  // PAD
     return bytes;
 }
 

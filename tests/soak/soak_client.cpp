@@ -28,9 +28,10 @@
 #include "taking_listener.hpp"
 #include "wire_types.hpp"
 
+// Fast DDS has a namespace ::dds of its own.
+namespace graspd::soak {
 namespace {
 
-using namespace graspd;  // NOLINT(google-build-using-namespace): this is its program
 using Clock = std::chrono::steady_clock;
 using eprosima::fastrtps::types::ReturnCode_t;
 
@@ -100,11 +101,11 @@ public:
     }
 
 private:
-    soak::Question make_question_of(std::uint64_t number) const {
-        return soak::make_question(arguments_.client, number, gripper_);
+    Question make_question_of(std::uint64_t number) const {
+        return make_question(arguments_.client, number, gripper_);
     }
 
-    bool ask(const soak::Question& question) {
+    bool ask(const Question& question) {
         const auto start = Clock::now();
         const auto reply = send(question);
         const std::chrono::duration<double, std::milli> time = Clock::now() - start;
@@ -119,7 +120,7 @@ private:
     }
 
     /// Asks again where the question says so.
-    std::string judge(const soak::Question& question, const Result<PlanReply>& reply) {
+    std::string judge(const Question& question, const Result<PlanReply>& reply) {
         if (!reply.ok()) return "lost";
         if (std::ranges::count(question.expected, reply.value().status) == 0) return "wrong";
         if (!question.again) return "ok";
@@ -128,7 +129,7 @@ private:
         return same_answer(reply.value(), second.value()) ? "ok" : "wrong";
     }
 
-    Result<PlanReply> send(const soak::Question& question) {
+    Result<PlanReply> send(const Question& question) {
         std::jthread later;
         if (question.cancel) {
             later = std::jthread([this, id = question.request.request_id] {
@@ -185,9 +186,7 @@ void watch(const Arguments& arguments) {
     listener.stop();
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     CLI::App app("One client of scripts/soak");
     try {
         Arguments to;
@@ -207,4 +206,11 @@ int main(int argc, char** argv) {
         std::cerr << "soak_client: " << error.what() << '\n';
         return 2;
     }
+}
+
+}  // namespace
+}  // namespace graspd::soak
+
+int main(int argc, char** argv) {
+    return graspd::soak::run(argc, argv);
 }
