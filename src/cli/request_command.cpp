@@ -35,7 +35,9 @@ Result<PlanReply> ask(const PlanRequest& request, const DdsSettings& settings,
                       const DdsArguments& arguments, milliseconds timeout) {
     auto client = PlannerClient::open(settings, unique_client_id());
     if (!client.ok()) return client.error();
-    const milliseconds patience = std::min(timeout, kDiscovery);
+    // A planner that is being started again is worth as many attempts as one that is silent.
+    const std::int64_t attempts = std::int64_t{arguments.retries} + 1;
+    const milliseconds patience = std::min(std::min(timeout, kDiscovery) * attempts, kDiscovery);
     if (!client.value()->wait_for_planner(patience)) {
         return PlanError{PlanErrorCode::kNoReply, "no planner on domain " +
                                                       std::to_string(settings.domain) + " within " +
