@@ -264,7 +264,7 @@ Bytes bytes_of_request(const std::function<void(wire::GraspRequest_&)>& change =
     return cdr_bytes(sample);
 }
 
-TEST(GuardedRequest, HashTellsEveryByteOfThePayload) {
+TEST(ReceivedPayload, HashTellsEveryByteOfThePayload) {
     const Bytes bytes = bytes_of_request();
     const auto same = received(bytes);
     ASSERT_TRUE(same);
@@ -282,7 +282,7 @@ TEST(GuardedRequest, HashTellsEveryByteOfThePayload) {
     EXPECT_GT(read, bytes.size() / 2);
 }
 
-TEST(GuardedRequest, CountsItsGeometry) {
+TEST(ReceivedPayload, CountsItsGeometry) {
     const auto sample = received(bytes_of_request([](wire::GraspRequest_& r) {
         r.mesh().vertices().resize(11);
         r.mesh().triangles().resize(7);
@@ -321,7 +321,7 @@ TEST_P(GuardedLimit, IsToldByFieldCountAndLimit) {
     const auto fits = received(bytes_of_request(), 1u << 20, limits);
     ASSERT_TRUE(fits);
     ASSERT_FALSE(fits->refused) << fits->refused->detail;
-    const auto sample = received(bytes_of_request(GetParam().change), 1u << 20, limits);
+    const auto sample = received(bytes_of_request(GetParam().change), 8u << 20, limits);
     ASSERT_TRUE(sample);
     ASSERT_TRUE(sample->refused);
     EXPECT_EQ(sample->refused->code, PlanErrorCode::kTooLarge);
@@ -349,7 +349,10 @@ const OverLimit kOverLimits[] = {
      },
      {"obstacles.triangles = 71", "server.max_obstacle_faces = 70"}},
     {"ObstacleVertices",
-     [](Wire& r) { r.obstacles()[0].mesh().vertices().resize(211); },
+     [](Wire& r) {
+         r.obstacles().resize(1);
+         r.obstacles()[0].mesh().vertices().resize(211);
+     },
      {"obstacles.vertices = 211", "3 x server.max_obstacle_faces = 210"}},
     {"Points",
      [](Wire& r) {
@@ -373,7 +376,7 @@ const OverLimit kOverLimits[] = {
 INSTANTIATE_TEST_SUITE_P(Guard, GuardedLimit, testing::ValuesIn(kOverLimits),
                          [](const auto& over) { return over.param.name; });
 
-TEST(GuardedRequest, ATooLargePayloadIsToldWithItsNames) {
+TEST(ReceivedPayload, ATooLargePayloadIsToldWithItsNames) {
     const Bytes bytes = bytes_of_request();
     const auto limit = static_cast<std::uint32_t>(bytes.size() - 1);
     const auto sample = received(bytes, limit);
