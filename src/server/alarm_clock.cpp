@@ -7,8 +7,8 @@ AlarmClock::AlarmClock() : thread_([this](const std::stop_token& stop) { run(sto
 AlarmClock::Id AlarmClock::set(Time when, std::function<void()> call) {
     const std::scoped_lock lock(mutex_);
     const Id id{when, ++count_};
-    const bool is_next = calls_.emplace(id, std::move(call)).first == calls_.begin();
-    if (is_next) changed_.notify_all();
+    const auto at = calls_.emplace(id, std::move(call)).first;
+    if (at == calls_.begin()) changed_.notify_all();
     return id;
 }
 
