@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "server_fakes.hpp"
@@ -31,6 +32,17 @@ TEST(AlarmClock, RingsInTheOrderOfTimesAndNotBefore) {
     clock.forget(forgotten);
     ASSERT_TRUE(rung.wait([](const auto& list) { return list.size() == 3; }));
     EXPECT_THAT(rung.copy(), ElementsAre("first", "second", "third"));
+}
+
+// The clock's thread waits without a limit when nothing is set.
+TEST(AlarmClock, WakesFromHavingNothingToDo) {
+    test::Watched<int> rings;
+    AlarmClock clock;
+    for (int n = 1; n <= 3; ++n) {
+        std::this_thread::sleep_for(20ms);
+        clock.set(Clock::now() + 1ms, [&] { rings.change([](int& count) { ++count; }); });
+        ASSERT_TRUE(rings.wait([n](int count) { return count == n; }));
+    }
 }
 
 TEST(AlarmClock, MayBeSetAndForgottenFromAnAlarmAndAfterTheEnd) {
