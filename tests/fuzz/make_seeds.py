@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes the seeds of the fuzz targets: what is well-formed, from which libFuzzer starts.
 
-    make_seeds.py            into tests/fuzz/corpus/TARGET, each named seed_...
+    make_seeds.py            into tests/fuzz/corpus/TARGET, each named seed_... (what its target accepts)
+                             or refused_...
 
 CDR samples are those of tests/golden/cdr, settings and grippers those of profiles/. Files that bear
 another name are libFuzzer's: inputs that once broke a promise, or that reach further.
@@ -16,8 +17,15 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 CORPUS = ROOT / "tests" / "fuzz" / "corpus"
 
 
+# Well-formed, but with values that the planner refuses: what has every field of the wire, say.
+REFUSED = {
+    "request_full", "call_fastrtps_full", "call_cyclone_full", "moveit_fastrtps", "moveit_cyclone",
+    "reply", "server", "arguments", "shape_3", "shape_6",
+}
+
+
 def write(target, name, data):
-    path = CORPUS / target / f"seed_{name}"
+    path = CORPUS / target / f"{'refused' if name in REFUSED else 'seed'}_{name}"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(data if isinstance(data, bytes) else data.encode())
 
