@@ -10,6 +10,7 @@
 namespace graspd {
 namespace {
 
+using test::as_received;
 using test::Bytes;
 using test::payload_of;
 using test::RawClient;
@@ -123,8 +124,8 @@ void expect_both_styles(MoveItCodes codes) {
     ASSERT_EQ(replies.size(), 2u);
     EXPECT_EQ(replies[0].related.writer_guid(), caller.reader().guid());
     EXPECT_EQ(replies[0].related.sequence_number().to64long(), 1u);
-    EXPECT_EQ(replies[0].payload, wanted);
-    EXPECT_EQ(replies[1].payload, with_header(wanted, 0x0123456789abcdefu, 77));
+    EXPECT_EQ(replies[0].payload, as_received(wanted));
+    EXPECT_EQ(replies[1].payload, as_received(with_header(wanted, 0x0123456789abcdefu, 77)));
 }
 
 TEST(MoveItService, AnswersBothVendorsInTheLayoutOfJazzy) {
@@ -142,7 +143,7 @@ TEST(MoveItService, SaysWhyThereIsNoGrasp) {
     ASSERT_EQ(caller.call(payload_of(ball("ball"))), 1u);
     const auto replies = caller.wait_for(1);
     ASSERT_EQ(replies.size(), 1u);
-    EXPECT_EQ(replies[0], payload_of(expected<JazzyResponse>(-1, "none", "")));
+    EXPECT_EQ(replies[0], as_received(payload_of(expected<JazzyResponse>(-1, "none", ""))));
 }
 
 // A call is a request like any other: who asked, under which name, for what; the same bytes again

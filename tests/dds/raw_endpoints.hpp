@@ -27,6 +27,12 @@ Bytes payload_of(const Struct& sample) {
     return dds::cdr_bytes(sample);
 }
 
+/// As it arrives: RTPS fills a payload up to a multiple of four bytes, with zeros.
+inline Bytes as_received(Bytes payload) {
+    payload.resize((payload.size() + 3) / 4 * 4, 0);
+    return payload;
+}
+
 /// Any bytes under a type's name.
 inline dds::fast::TypeSupport raw_type(const char* name) {
     return dds::fast::TypeSupport(new dds::RawType(name, std::make_shared<dds::PayloadGuard>()));

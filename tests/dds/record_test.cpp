@@ -78,7 +78,7 @@ TEST_F(RecordTest, WhatIsRecordedIsPlannedAgainToTheSameReply) {
     for (std::size_t i = 0; i < sent.size(); ++i) {
         const std::string number = "-00000" + std::to_string(i + 1);
         EXPECT_EQ(contents("request" + number + ".cdr"), sent[i]);
-        EXPECT_EQ(contents("reply" + number + ".cdr"), replies[i]);
+        EXPECT_EQ(test::as_received(contents("reply" + number + ".cdr")), replies[i]);
         const auto [code, said] = replay("request" + number + ".cdr");
         EXPECT_EQ(code, 0) << said;
         EXPECT_EQ(said, "the same reply\n");
