@@ -209,6 +209,9 @@ TEST(DaemonProcess, SigtermWhilePlanningAnswersAndEndsWithZero) {
 // The fence leaves room for what the middleware needs and for small plans, not for a plan of a
 // million faces, whose mesh and its doubles alone are 38 MB each.
 TEST(DaemonProcess, OutOfMemoryCostsItsRequestAlone) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "a sanitizer's shadow memory is larger than any fence";
+#endif
     const std::uint32_t domain = daemon_domain(10);
     const test::TemporaryFile fence(
         "_fence.yaml", "server:\n  workers: 1\n  max_address_space_bytes: 700000000\n");
