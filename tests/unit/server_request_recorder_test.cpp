@@ -36,7 +36,10 @@ protected:
         settings_.version = "1.2.3";
         settings_.config_hash = "abcd";
     }
-    ~Recorder() override { fs::remove_all(directory_); }
+    ~Recorder() override {
+        recorder_.reset();  // its thread tells of failures
+        fs::remove_all(directory_);
+    }
 
     void open() {
         auto opened = RequestRecorder::open(
