@@ -1,5 +1,4 @@
 #include <pthread.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 
 #include "beat.hpp"
 #include "daemon_arguments.hpp"
+#include "daemon_log.hpp"
 #include "describe_state.hpp"
 #include "graspd/base/freed_memory.hpp"
 #include "graspd/config/domain_id.hpp"
@@ -25,7 +25,6 @@
 #include "idle_watch.hpp"
 #include "memory_fence.hpp"
 #include "planner_service.hpp"
-#include "profile_interfaces.hpp"
 #include "request_line.hpp"
 #include "request_recorder.hpp"
 #include "supervisor.hpp"
@@ -97,68 +96,6 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
     dds.keep_payloads = !config.server.record_dir.empty();
     return Setup{config, std::move(dds), network.value().why, std::move(grippers).value(),
                  restarts_from_environment()};
-}
-
-void open_log(const std::string& level) {
-    auto log = spdlog::stderr_logger_mt("graspd");
-    log->set_pattern("time=%Y-%m-%dT%H:%M:%S.%eZ level=%l %v", spdlog::pattern_time_type::utc);
-    log->set_level(spdlog::level::from_str(level));
-    log->flush_on(spdlog::level::trace);
-    spdlog::set_default_logger(std::move(log));
-}
-
-void log_ready(const Setup& setup) {
-    std::string names;
-    for (const Gripper& gripper : setup.grippers) {
-        names += (names.empty() ? "" : " ") + gripper.name;
-    }
-    const DdsSettings& dds = setup.dds;
-    spdlog::info(
-        "event=ready domain={} interfaces={} profile={} network={} security={} node={} "
-        "request_topic={} "
-        "planner_id={} "
-        "version={} config_hash={} "
-        "workers={} queue_capacity={} restarts={} grippers={}",
-        dds.domain, log_value(profile_file_interfaces(dds.profile_file)),
-        log_value(dds.profile_file), log_value(setup.network_why),
-        dds.security ? log_value(dds.security->certificate) : "off", log_value(full_name(dds.node)),
-        log_value(dds.names.grasp_request), log_value(dds.planner_id), dds.version, dds.config_hash,
-        setup.config.server.workers, setup.config.server.queue_capacity, setup.restarts,
-        log_value(names));
-}
-
-void log_cancel(const CancelOrder& order, std::size_t cancelled) {
-    spdlog::info("event=cancel id={} client={} cancelled={}", log_value(order.request_id),
-                 log_value(order.client_id), cancelled);
-}
-
-void log_dropped(std::size_t calls) {
-    if (calls > 0) spdlog::info("event=caller_gone dropped={}", calls);
-}
-
-void log_received(const RequestIdentity& identity) {
-    if (!spdlog::should_log(spdlog::level::debug)) return;
-    spdlog::debug("event=received id={} client={}", log_value(identity.request_id),
-                  log_value(identity.client_id));
-}
-
-void log_answer(const Answer& answer) {
-    const bool fault = answer.out.reply.status == PlanStatus::kInternalError || !answer.written;
-    spdlog::log(fault ? spdlog::level::err : spdlog::level::info, "event=request {}",
-                request_line(answer));
-}
-
-void log_end(const ServiceCounters& counters, const PlannerPort& port) {
-    const auto count = [&](PlanStatus status) {
-        return counters.answers.at(static_cast<std::size_t>(status));
-    };
-    spdlog::info(
-        "event=stopped received={} ok={} no_grasp={} partial={} overloaded={} cancelled={} "
-        "internal_error={} repeated={} lost={} abandoned_plans={} dropped={} rejected_payloads={}",
-        counters.received, count(PlanStatus::kOk), count(PlanStatus::kNoGrasp),
-        count(PlanStatus::kPartial), count(PlanStatus::kOverloaded), count(PlanStatus::kCancelled),
-        count(PlanStatus::kInternalError), counters.repeated, counters.lost,
-        counters.abandoned_plans, counters.dropped, port.rejected_payloads());
 }
 
 int fail(const PlanError& error) {
@@ -250,7 +187,7 @@ int serve(const Setup& setup, const sigset_t& signals) {
             give_back_freed_memory();
         }
     });
-    log_ready(setup);
+    log_ready({setup.dds, setup.config.server, setup.network_why, setup.grippers, setup.restarts});
 
     int signal = 0;
     sigwait(&signals, &signal);
@@ -261,7 +198,7 @@ int serve(const Setup& setup, const sigset_t& signals) {
     const bool ended = service.stop(kStopGrace);
     const bool confirmed = port->wait_acknowledged(kAcknowledgeWait);
     if (!confirmed) spdlog::warn("event=unconfirmed what=\"some replies were not acknowledged\"");
-    log_end(service.counters(), *port);
+    log_end(service.counters(), port->rejected_payloads());
     if (record != nullptr) close_recorder(*record);
     const int code = is_worn_out ? kExitInternal : 0;
     if (!ended) std::_Exit(code);  // a planner that does not stop must not keep the process
