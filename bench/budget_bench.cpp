@@ -8,7 +8,6 @@
 // often it was stopped, median and greatest overrun, and the stage of the greatest one. An overrun
 // is from the budget's end to the reply, and none for a plan that ended within it.
 #include <execinfo.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -26,23 +25,16 @@
 #include "graspd/config/load_gripper.hpp"
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/planner/planner.hpp"
+#include "meter.hpp"
 #include "value_of.hpp"
 
 namespace {
 
 using namespace graspd;
+using bench::ms_since;
+using bench::peak_mb;
 using bench::value_of;
 using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-double peak_mb() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 struct Overrun {
     double ms = 0.0;

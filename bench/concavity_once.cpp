@@ -1,5 +1,3 @@
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -16,6 +14,7 @@
 #include "graspd/base/freed_memory.hpp"
 #include "graspd/concavity/shortest_path_concavity.hpp"
 #include "graspd/mesh/condition_mesh.hpp"
+#include "meter.hpp"
 
 // Conditioning and concavity of a mesh, so many times (1): median milliseconds of each step and in
 // all, and the memory of the first time. Once, for counting instructions:
@@ -25,17 +24,9 @@
 namespace {
 
 using namespace graspd;
+using bench::ms_since;
+using bench::peak_mb;
 using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-double peak_mb() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 /// Apart, so that callgrind can count what happens in here alone. The first step is conditioning.
 [[gnu::noinline]] Result<MeasuredConcavity> concavity_of_soup(const TriangleMesh& soup) {

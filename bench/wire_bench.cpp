@@ -19,20 +19,18 @@
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/dds/planner_client.hpp"
 #include "graspd/dds/planner_port.hpp"
+#include "meter.hpp"
 #include "support/shapes.hpp"
 #include "value_of.hpp"
 
 namespace {
 
 using namespace graspd;
+using bench::ms_since;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kGrasps = 10;  // as a reply has by default
 constexpr std::uint32_t kDomain = 214;
-
-double ms_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 double median(std::vector<double> values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

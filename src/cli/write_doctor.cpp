@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "text_table.hpp"
+#include "write_findings.hpp"
 
 namespace graspd::cli {
 namespace {
@@ -67,21 +68,13 @@ std::string write_doctor_table(const Diagnosis& diagnosis) {
     std::string text = diagnosis.file + ": " + diagnosis.kind + ", " +
                        (diagnosis.usable() ? "usable" : "refused: " + diagnosis.refusal) + "\n";
     if (diagnosis.kind != "unreadable") text += figure_rows(diagnosis);
-    if (!diagnosis.findings.empty()) text += "\n";
-    for (const Finding& finding : diagnosis.findings) {
-        text += "finding: " + finding.code + ": " + finding.detail + "\n";
-    }
+    text += finding_rows(diagnosis.findings);
     if (!diagnosis.advice.empty()) text += "\n";
     for (const std::string& advice : diagnosis.advice) text += "would help: " + advice + "\n";
     return text;
 }
 
 std::string write_doctor_json(const Diagnosis& diagnosis) {
-    Json findings = Json::array();
-    for (const Finding& finding : diagnosis.findings) {
-        findings.push_back(
-            {{"code", finding.code}, {"value", finding.value}, {"detail", finding.detail}});
-    }
     const bool read = diagnosis.kind != "unreadable";
     const Json json = {{"schema", "graspd/1"},
                        {"file", diagnosis.file},
@@ -90,7 +83,7 @@ std::string write_doctor_json(const Diagnosis& diagnosis) {
                        {"message", diagnosis.refusal},
                        {"before", read ? json_of(diagnosis.before) : Json(nullptr)},
                        {"after", diagnosis.after ? json_of(*diagnosis.after) : Json(nullptr)},
-                       {"findings", std::move(findings)},
+                       {"findings", findings_json(diagnosis.findings)},
                        {"advice", diagnosis.advice}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "write_findings.hpp"
+
 namespace graspd::cli {
 namespace {
 
@@ -99,15 +101,10 @@ Json json_of(const PlanReport& report) {
         entry.update(json_of(miss.X_FG));
         near_misses.push_back(std::move(entry));
     }
-    Json findings = Json::array();
-    for (const Finding& finding : report.findings) {
-        findings.push_back(
-            {{"code", finding.code}, {"value", finding.value}, {"detail", finding.detail}});
-    }
     return {{"stages", std::move(stages)},
             {"rejections", std::move(rejections)},
             {"near_misses", std::move(near_misses)},
-            {"findings", std::move(findings)},
+            {"findings", findings_json(report.findings)},
             {"suggestion", report.suggestion}};
 }
 

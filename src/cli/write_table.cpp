@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "text_table.hpp"
+#include "write_findings.hpp"
 
 namespace graspd::cli {
 namespace {
@@ -85,14 +86,6 @@ std::string stage_rows(const PlanReport& report) {
     return "\n" + print_table(table);
 }
 
-std::string finding_rows(const PlanReport& report) {
-    std::string text;
-    for (const Finding& finding : report.findings) {
-        text += "finding: " + finding.code + ": " + finding.detail + "\n";
-    }
-    return text.empty() ? "" : "\n" + text;
-}
-
 }  // namespace
 
 std::string write_table(const PlanReply& reply, std::span<const Gripper> grippers,
@@ -100,7 +93,7 @@ std::string write_table(const PlanReply& reply, std::span<const Gripper> gripper
     std::string text = headline(reply, grippers, origin) + grasp_rows(reply);
     if (reply.grasps.empty()) text += reason_rows(reply.report) + miss_rows(reply.report);
     if (!reply.report.suggestion.empty()) text += "\nsuggestion: " + reply.report.suggestion + "\n";
-    return text + finding_rows(reply.report) + stage_rows(reply.report);
+    return text + finding_rows(reply.report.findings) + stage_rows(reply.report);
 }
 
 std::string write_table(std::span<const Gripper> grippers) {

@@ -55,8 +55,8 @@ std::string shown(double value) {
     return digits.data();
 }
 
-std::string element(const char* name, std::size_t index) {
-    return std::string(name) + "[" + std::to_string(index) + "]";
+std::string element(const std::string& name, std::size_t index) {
+    return name + "[" + std::to_string(index) + "]";
 }
 
 void check_text(const std::string& text, const std::string& field,
@@ -72,9 +72,10 @@ void check_text(const std::string& text, const std::string& field,
     }
 }
 
-void check_count(std::size_t count, std::size_t most, const char* field, FirstError& errors) {
+void check_count(std::size_t count, std::size_t most, const std::string& field,
+                 FirstError& errors) {
     if (count <= most) return;
-    errors.invalid(std::string(field) + " has " + std::to_string(count) + " elements, at most " +
+    errors.invalid(field + " has " + std::to_string(count) + " elements, at most " +
                    std::to_string(most) + " are allowed");
 }
 

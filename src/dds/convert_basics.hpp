@@ -46,13 +46,13 @@ std::string shown(const std::string& text);
 /// The shortest decimal text of nine digits or fewer, for messages.
 std::string shown(double value);
 /// "name[index]".
-std::string element(const char* name, std::size_t index);
+std::string element(const std::string& name, std::size_t index);
 
 /// Checks that a text has `least` to `most` characters, all printable ASCII.
 void check_text(const std::string& text, const std::string& field,
                 std::pair<std::size_t, std::size_t> length, FirstError& errors);
 /// Checks a count against its bound of the IDL, which readers do not enforce.
-void check_count(std::size_t count, std::size_t most, const char* field, FirstError& errors);
+void check_count(std::size_t count, std::size_t most, const std::string& field, FirstError& errors);
 /// Checks that a number is finite and inside its range.
 double read_number(double value, const std::string& field, const NumberRange& range,
                    FirstError& errors);

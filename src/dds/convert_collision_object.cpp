@@ -17,10 +17,6 @@ using Poses = std::vector<geometry_msgs::msg::dds_::Pose_>;
 
 constexpr NumberRange kLength_m{0.0, 100.0, true};  // of a primitive
 
-std::string element_of(const std::string& path, std::size_t index) {
-    return element(path.c_str(), index);
-}
-
 void check_operation(const CollisionObject_& object, const std::string& path, FirstError& errors) {
     if (object.operation() == operation::ADD_ || object.operation() == operation::APPEND_) return;
     errors.invalid(path + ".operation = " + std::to_string(object.operation()) +
@@ -36,7 +32,7 @@ std::vector<Eigen::Isometry3d> read_poses(const Poses& poses, std::size_t parts,
     }
     std::vector<Eigen::Isometry3d> out(parts, Eigen::Isometry3d::Identity());
     for (std::size_t i = 0; i < std::min(poses.size(), parts) && !errors.any(); ++i) {
-        out[i] = read_pose(poses[i], element_of(path, i), errors);
+        out[i] = read_pose(poses[i], element(path, i), errors);
     }
     return out;
 }
@@ -49,13 +45,13 @@ TriangleMesh read_part(const shape_msgs::msg::dds_::Mesh_& mesh, const std::stri
     if (out.faces.empty()) errors.invalid(path + " has no triangles");
     for (std::size_t i = 0; i < out.vertices.size() && !errors.any(); ++i) {
         if (out.vertices[i].allFinite()) continue;
-        errors.invalid(element_of(path + ".vertices", i) + " is not finite");
+        errors.invalid(element(path + ".vertices", i) + " is not finite");
     }
     for (std::size_t i = 0; i < out.faces.size() && !errors.any(); ++i) {
         const std::uint32_t highest = *std::ranges::max_element(out.faces[i]);
         if (highest < out.vertices.size()) continue;
-        errors.invalid(element_of(path + ".triangles", i) + " uses vertex " +
-                       std::to_string(highest) + " of " + std::to_string(out.vertices.size()));
+        errors.invalid(element(path + ".triangles", i) + " uses vertex " + std::to_string(highest) +
+                       " of " + std::to_string(out.vertices.size()));
     }
     return out;
 }
@@ -86,7 +82,7 @@ TriangleMesh read_primitive(const SolidPrimitive_& in, const std::string& path,
         return {};
     }
     for (std::size_t i = 0; i < size.size(); ++i) {
-        read_number(size[i], element_of(path + ".dimensions", i), kLength_m, errors);
+        read_number(size[i], element(path + ".dimensions", i), kLength_m, errors);
     }
     if (errors.any()) return {};
     switch (in.type()) {
@@ -106,14 +102,14 @@ void read_solids(const CollisionObject_& in, const std::string& path, CollisionP
     const auto mesh_poses =
         read_poses(in.mesh_poses(), in.meshes().size(), path + ".mesh_poses", errors);
     for (std::size_t i = 0; i < in.meshes().size() && !errors.any(); ++i) {
-        out.solids_O.push_back(read_part(in.meshes()[i], element_of(path + ".meshes", i), errors));
+        out.solids_O.push_back(read_part(in.meshes()[i], element(path + ".meshes", i), errors));
         place(out.solids_O.back(), mesh_poses[i]);
     }
     const auto poses =
         read_poses(in.primitive_poses(), in.primitives().size(), path + ".primitive_poses", errors);
     for (std::size_t i = 0; i < in.primitives().size() && !errors.any(); ++i) {
         out.solids_O.push_back(
-            read_primitive(in.primitives()[i], element_of(path + ".primitives", i), errors));
+            read_primitive(in.primitives()[i], element(path + ".primitives", i), errors));
         place(out.solids_O.back(), poses[i]);
     }
 }
@@ -127,8 +123,8 @@ void read_planes(const CollisionObject_& in, const std::string& path, CollisionP
         const Eigen::Vector3d normal(a, b, c);
         const double length = normal.norm();
         if (!(length > 1e-9) || !std::isfinite(length) || !std::isfinite(d)) {
-            errors.invalid(element_of(path + ".planes", i) + ".coef = (" + shown(a) + ", " +
-                           shown(b) + ", " + shown(c) + ", " + shown(d) + ") is no plane");
+            errors.invalid(element(path + ".planes", i) + ".coef = (" + shown(a) + ", " + shown(b) +
+                           ", " + shown(c) + ", " + shown(d) + ") is no plane");
             return;
         }
         const Eigen::Isometry3d X_FPlane = out.X_FO * poses[i];
@@ -139,19 +135,21 @@ void read_planes(const CollisionObject_& in, const std::string& path, CollisionP
 
 }  // namespace
 
+void check_frame(const std::string& frame, const std::string& path, const std::string& frame_id,
+                 FirstError& errors) {
+    if (frame.empty() || frame == frame_id) return;
+    errors.invalid(path + ".header.frame_id = " + shown(frame) + " must be that of the target, " +
+                   shown(frame_id) + ": graspd transforms nothing");
+}
+
 CollisionParts read_collision_object(const CollisionObject_& object, const std::string& path,
                                      const std::string& frame_id, FirstError& errors) {
     CollisionParts out;
     check_operation(object, path, errors);
-    const std::string& frame = object.header().frame_id();
-    if (!frame.empty() && frame != frame_id) {
-        errors.invalid(path + ".header.frame_id = " + shown(frame) +
-                       " must be that of the target, " + shown(frame_id) +
-                       ": graspd transforms nothing");
-    }
+    check_frame(object.header().frame_id(), path, frame_id, errors);
     const std::size_t solids = object.meshes().size() + object.primitives().size();
-    check_count(solids, kMostParts, (path + ": meshes and primitives").c_str(), errors);
-    check_count(object.planes().size(), kMostParts, (path + ".planes").c_str(), errors);
+    check_count(solids, kMostParts, path + ": meshes and primitives", errors);
+    check_count(object.planes().size(), kMostParts, path + ".planes", errors);
     if (errors.any()) return out;
     out.X_FO = read_pose(object.pose(), path + ".pose", errors);
     read_solids(object, path, out, errors);

@@ -18,6 +18,10 @@ struct CollisionParts {
 /// Most meshes and primitives, and most planes, of one object.
 inline constexpr std::size_t kMostParts = 256;
 
+/// Notes a frame at `path` that is neither empty nor the target's.
+void check_frame(const std::string& frame, const std::string& path, const std::string& frame_id,
+                 FirstError& errors);
+
 /// Reads an object that is to be there. A part without a pose stands at the object's own, as
 /// MoveIt takes it; curved primitives become meshes (base/solid_meshes.hpp). Names, the type and
 /// the subframes say nothing about its shape and are not looked at.

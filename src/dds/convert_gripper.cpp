@@ -13,12 +13,6 @@ constexpr std::size_t kMostTravel = 64;
 constexpr std::size_t kMostName = 64;
 constexpr std::size_t kMostParts = 16;
 
-std::string names_of(std::span<const Gripper> known) {
-    std::string text;
-    for (const Gripper& gripper : known) text += (text.empty() ? "" : ", ") + gripper.name;
-    return text.empty() ? "none" : text;
-}
-
 using Meshes = std::vector<shape_msgs::msg::dds_::Mesh_>;
 
 /// A member's convex parts; of a mesh the vertices alone count.
@@ -94,6 +88,12 @@ void write_parts(const Gripper& gripper, wire::Gripper_& out) {
 }
 
 }  // namespace
+
+std::string names_of(std::span<const Gripper> known) {
+    std::string text;
+    for (const Gripper& gripper : known) text += (text.empty() ? "" : ", ") + gripper.name;
+    return text.empty() ? "none" : text;
+}
 
 std::vector<Gripper> read_grippers(const wire::GraspRequest_& request,
                                    std::span<const Gripper> known, FirstError& errors) {

@@ -39,17 +39,17 @@ inline constexpr Contract kStatusEnds{
     .profile = "/graspd/status", .transient_local = true, .depth = 1, .lease_s = 3};
 inline constexpr Contract kDiagnosticsEnds{.profile = "/diagnostics", .depth = 10};
 inline constexpr Contract kServiceRequestEnds{.profile = "/graspd/plan_graspsRequest", .limit = 32};
-inline constexpr Contract kServiceReplyEnds{.profile = "/graspd/plan_graspsReply",
-                                            .transient_local = true,
-                                            .limit = 256,
-                                            .lifespan_s = 60,
-                                            .greets = true};
+/// Of every service: ROS 2's readers of replies may come after the writer, see ReplyWriter.
+constexpr Contract service_reply_ends(const char* profile) {
+    return {.profile = profile,
+            .transient_local = true,
+            .limit = 256,
+            .lifespan_s = 60,
+            .greets = true};
+}
+inline constexpr Contract kServiceReplyEnds = service_reply_ends("/graspd/plan_graspsReply");
 inline constexpr Contract kMoveItRequestEnds{.profile = "/plan_graspsRequest", .limit = 32};
-inline constexpr Contract kMoveItReplyEnds{.profile = "/plan_graspsReply",
-                                           .transient_local = true,
-                                           .limit = 256,
-                                           .lifespan_s = 60,
-                                           .greets = true};
+inline constexpr Contract kMoveItReplyEnds = service_reply_ends("/plan_graspsReply");
 inline constexpr Contract kGraphEnds{
     .profile = "ros_discovery_info", .transient_local = true, .depth = 1};
 

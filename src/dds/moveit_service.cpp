@@ -16,8 +16,6 @@ using HumbleResponse = ::moveit_msgs_humble::srv::dds_::GraspPlanning_Response_;
 constexpr const char* kRequestType = "moveit_msgs::srv::dds_::GraspPlanning_Request_";
 constexpr const char* kReplyType = "moveit_msgs::srv::dds_::GraspPlanning_Response_";
 constexpr const char* kSource = "graspd";
-constexpr std::chrono::milliseconds kCallerPatience{100};
-constexpr std::chrono::milliseconds kNoPatience{0};  // for one that has left
 
 /// The response in one of the two layouts.
 template <class Response>
@@ -77,7 +75,7 @@ bool MoveItService::open_reader(Participant& participant, const std::string& top
 
 bool MoveItService::write(const MoveItRequest& to, const PlanReply& reply) {
     const auto& caller = to.identity().writer;
-    writer_.meet(caller, listener_.knows(guid_of(caller)) ? kCallerPatience : kNoPatience);
+    writer_.meet_caller(caller, listener_.knows(guid_of(caller)));
     if (settings_->error_codes == MoveItCodes::kHumble) {
         return write_service_reply(to.call, response_to<HumbleResponse>(to, reply, *settings_),
                                    writer_.writer());

@@ -33,8 +33,6 @@ using DiagnosticsType = GuardedType<diagnostic_msgs::msg::dds_::DiagnosticArray_
 
 constexpr const char* kServiceRequestType = "graspd_msgs::srv::dds_::PlanGrasps_Request_";
 constexpr const char* kServiceReplyType = "graspd_msgs::srv::dds_::PlanGrasps_Response_";
-constexpr std::chrono::milliseconds kCallerPatience{100};
-constexpr std::chrono::milliseconds kNoPatience{0};
 
 class DdsPlannerPort final : public PlannerPort {
 public:
@@ -152,8 +150,7 @@ private:
             reply_writer_.meet(caller, {});  // somebody else may read what one asks for
             return reply_writer_.writer().write(&sample);
         }
-        const bool is_there = service_listener_.knows(guid_of(caller));
-        service_writer_.meet(caller, is_there ? kCallerPatience : kNoPatience);
+        service_writer_.meet_caller(caller, service_listener_.knows(guid_of(caller)));
         // The service's response has one member, so its bytes are those of a RankedGrasps_.
         return write_service_reply(*request->call, sample, service_writer_.writer());
     }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "convert_collision_object.hpp"
+#include "convert_gripper.hpp"
 #include "convert_moveit.hpp"
 
 namespace graspd::dds {
@@ -13,21 +14,15 @@ constexpr std::size_t kMostCandidates = 1000;
 // A half space as a box, which ends further away than a gripper (2 m at most) can reach.
 constexpr double kHalfWidth_m = 20.0, kHalfDepth_m = 10.0;
 
-std::string known_names(std::span<const Gripper> known) {
-    std::string text;
-    for (const Gripper& gripper : known) text += (text.empty() ? "" : ", ") + gripper.name;
-    return text.empty() ? "none" : text;
-}
-
 std::vector<Gripper> read_gripper(const MoveItCall& call, std::span<const Gripper> known,
                                   const MoveItSettings& settings, FirstError& errors) {
     std::string name = call.group_name().empty() ? settings.gripper : call.group_name();
     if (name.empty() && !known.empty()) name = known.front().name;
     const auto found = std::ranges::find(known, name, &Gripper::name);
     if (found != known.end()) return {*found};
-    errors.set(PlanErrorCode::kUnknownGripper,
-               "group_name = " + shown(call.group_name()) +
-                   " names no gripper (known: " + known_names(known) + ")");
+    errors.set(PlanErrorCode::kUnknownGripper, "group_name = " + shown(call.group_name()) +
+                                                   " names no gripper (known: " + names_of(known) +
+                                                   ")");
     return {};
 }
 
@@ -140,12 +135,7 @@ void read_candidates(const MoveItCall& call, const std::string& frame_id,
     for (std::size_t i = 0; i < candidates.size() && !errors.any(); ++i) {
         const std::string path = element("candidate_grasps", i) + ".grasp_pose";
         const auto& stamped = candidates[i].grasp_pose();
-        const std::string& frame = stamped.header().frame_id();
-        if (!frame.empty() && frame != frame_id) {
-            errors.invalid(path + ".header.frame_id = " + shown(frame) +
-                           " must be that of the target, " + shown(frame_id) +
-                           ": graspd transforms nothing");
-        }
+        check_frame(stamped.header().frame_id(), path, frame_id, errors);
         out.candidates_FH.push_back(read_pose(stamped.pose(), path + ".pose", errors) * X_PH);
     }
     out.options.max_grasps =

@@ -9,6 +9,8 @@ namespace graspd::dds {
 namespace {
 
 constexpr std::ptrdiff_t kPrefix_bytes = 12;  // of a GUID: its participant
+constexpr std::chrono::milliseconds kCallerPatience{100};
+constexpr std::chrono::milliseconds kNoPatience{0};
 
 }  // namespace
 
@@ -49,6 +51,10 @@ void ReplyWriter::meet(const std::array<std::uint8_t, 16>& caller,
         greet = std::exchange(has_new_reader_, false);
     }
     if (greet) writer_->assert_liveliness();  // sends every reader a heartbeat
+}
+
+void ReplyWriter::meet_caller(const std::array<std::uint8_t, 16>& caller, bool is_there) {
+    meet(caller, is_there ? kCallerPatience : kNoPatience);
 }
 
 }  // namespace graspd::dds

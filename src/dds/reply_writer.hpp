@@ -26,6 +26,9 @@ public:
     /// matched, `patience` at most, then greets readers that are new.
     void meet(const std::array<std::uint8_t, 16>& caller, std::chrono::milliseconds patience);
 
+    /// As meet(), for the caller of a service, who is waited for unless it has left.
+    void meet_caller(const std::array<std::uint8_t, 16>& caller, bool is_there);
+
     fast::DataWriter& writer() { return *writer_; }
 
     void on_publication_matched(fast::DataWriter* writer,

@@ -115,7 +115,6 @@ TEST_P(Clouds, GetTheirVerdict) {
     expect_verdict(close(GetParam().cloud), GetParam().verdict);
 }
 
-constexpr auto kName = [](const auto& row) { return row.param.name; };
 INSTANTIATE_TEST_SUITE_P(Refused, Clouds, testing::ValuesIn(kRefused), kName);
 INSTANTIATE_TEST_SUITE_P(Repaired, Clouds, testing::ValuesIn(kRepaired), kName);
 

@@ -124,7 +124,6 @@ TEST_P(Meshes, GetTheirVerdict) {
     expect_verdict(close(GetParam().mesh), GetParam().verdict);
 }
 
-constexpr auto kName = [](const auto& row) { return row.param.name; };
 INSTANTIATE_TEST_SUITE_P(Repaired, Meshes, testing::ValuesIn(kRepaired), kName);
 INSTANTIATE_TEST_SUITE_P(Refused, Meshes, testing::ValuesIn(kRefused), kName);
 

@@ -134,7 +134,6 @@ TEST_P(SettingFiles, AreRefused) {
                    GetParam().verdict);
 }
 
-constexpr auto kName = [](const auto& row) { return row.param.name; };
 INSTANTIATE_TEST_SUITE_P(Profiles, Grippers, testing::ValuesIn(kGrippers), kName);
 INSTANTIATE_TEST_SUITE_P(Settings, SettingFiles, testing::ValuesIn(kSettings), kName);
 

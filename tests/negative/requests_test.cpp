@@ -172,7 +172,6 @@ TEST_P(Requests, AreRefusedWithFieldAndValue) {
     }
 }
 
-constexpr auto kName = [](const auto& row) { return row.param.name; };
 INSTANTIATE_TEST_SUITE_P(Gripper, Requests, testing::ValuesIn(kGripper), kName);
 INSTANTIATE_TEST_SUITE_P(Options, Requests, testing::ValuesIn(kOptions), kName);
 INSTANTIATE_TEST_SUITE_P(Scene, Requests, testing::ValuesIn(kScene), kName);

@@ -106,4 +106,9 @@ void PrintTo(const BadFile& row, std::ostream* out) {
     *out << row.name;
 }
 
+void expect_verdict(const BadFile& object) {
+    const ScratchFolder folder;
+    expect_verdict(read_and_close(folder.write(object.file, object.bytes)), object.verdict);
+}
+
 }  // namespace graspd::test

@@ -66,5 +66,10 @@ struct BadFile {
     Verdict verdict;
 };
 void PrintTo(const BadFile& row, std::ostream* out);
+/// Writes an object file, reads and closes it, and compares.
+void expect_verdict(const BadFile& object);
+
+/// The name of a row's test.
+inline constexpr auto kName = [](const auto& row) { return row.param.name; };
 
 }  // namespace graspd::test
