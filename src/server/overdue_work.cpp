@@ -23,10 +23,14 @@ constexpr std::chrono::milliseconds kPatience{40};
 /// The budget of a request that waits is over.
 void PlannerService::expire(const RequestPtr& request) noexcept {
     const std::scoped_lock lock(mutex_);
+    const auto at = open_.find(request);
+    if (at == open_.end() || at->second.begun) return;
+    queue_.remove(request);
+    answer_late_locked(request);
+}
+
+void PlannerService::answer_late_locked(const RequestPtr& request) noexcept {
     try {
-        const auto at = open_.find(request);
-        if (at == open_.end() || at->second.begun) return;
-        queue_.remove(request);
         finish_locked(request, budget_spent(*request), {});
     } catch (const std::exception&) {
         lose_locked(request);
@@ -34,12 +38,16 @@ void PlannerService::expire(const RequestPtr& request) noexcept {
 }
 
 /// A worker begins with a request.
-/// @return what tells its planner to stop; null when it has been answered meanwhile
+/// @return what tells its planner to stop; null when it has been answered, now or meanwhile
 PlannerService::DropFlag PlannerService::begin(const RequestPtr& request,
                                                const std::shared_ptr<Worker>& worker) {
     const std::scoped_lock lock(mutex_);
     const auto at = open_.find(request);
     if (at == open_.end()) return nullptr;
+    if (!stop_.stop_requested() && std::chrono::steady_clock::now() >= deadline_of(*request)) {
+        answer_late_locked(request);  // before its alarm, which rings at this moment
+        return nullptr;
+    }
     alarms_.forget(at->second.alarm);
     at->second.begun = true;
     worker->job = request;

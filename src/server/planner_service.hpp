@@ -135,6 +135,7 @@ private:
     bool end(const std::shared_ptr<Worker>& worker, const PlanReply& reply,
              const Work& work) noexcept;
     void expire(const RequestPtr& request) noexcept;
+    void answer_late_locked(const RequestPtr& request) noexcept;
     void overrun(const RequestPtr& request, const std::shared_ptr<Worker>& worker) noexcept;
     void abandon(const RequestPtr& request, const std::shared_ptr<Worker>& worker) noexcept;
     void lose_locked(const RequestPtr& request) noexcept;
