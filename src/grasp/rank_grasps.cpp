@@ -78,13 +78,20 @@ Result<Ranking> rank_grasps(std::span<const RankedEntry> entries, std::uint32_t 
             return same(entries[i], entries[better], config);
         });
         if (known) {
-            ++ranking.duplicates;
+            ranking.duplicates.push_back(i);
         } else {
             distinct.push_back(i);
         }
     }
     ranking.order = cut(distinct, entries, max_grasps, config.likely_score);
-    ranking.surplus = distinct.size() - ranking.order.size();
+    auto kept = ranking.order.begin();  // a part of `distinct`, in its order
+    for (const std::size_t i : distinct) {
+        if (kept != ranking.order.end() && *kept == i) {
+            ++kept;
+        } else {
+            ranking.surplus.push_back(i);
+        }
+    }
     return ranking;
 }
 

@@ -12,9 +12,10 @@ namespace graspd::planner_detail {
 
 /// What was found within the limits of one request.
 struct Found {
-    std::vector<Grasp> grasps;       ///< best first, in F
-    Rejections rejections;           ///< poses of misses in P
-    std::optional<Stopped> stopped;  ///< the caller wanted no more
+    std::vector<Grasp> grasps;                            ///< best first, in F
+    Rejections rejections;                                ///< poses of misses in P
+    std::vector<std::vector<TracedBoundary>> boundaries;  ///< one a gripper, where traced
+    std::optional<Stopped> stopped;                       ///< the caller wanted no more
 };
 
 /// The reply under construction.

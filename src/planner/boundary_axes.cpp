@@ -54,25 +54,27 @@ std::vector<Eigen::Vector2d> ordered_boundary(const WorkingPlane& plane,
 }
 
 /// Section II-E: step points and the candidates that start from them.
-std::vector<GraspCandidate> candidates_on(const std::vector<Eigen::Vector2d>& boundary,
-                                          double spacing_m, const Gripper& gripper,
-                                          const PlannerConfig& config, StageLog& log) {
+struct BoundaryWalk {
+    std::vector<StepPoint> steps;
+    std::vector<GraspCandidate> candidates;
+};
+BoundaryWalk walk_along(const std::vector<Eigen::Vector2d>& boundary, double spacing_m,
+                        const Gripper& gripper, const PlannerConfig& config, StageLog& log) {
     if (boundary.size() < 2) return {};
     const double step_m = config.step_points.step_finger_widths * gripper.finger_width_m;
     const double max_gap_m = config.step_points.max_gap_spacings * spacing_m;
     const double least_width_m = std::max(gripper.min_width_m, step_m);
-    const auto steps = log.run("grasp/step_points", boundary.size(), [&] {
-        return step_points(boundary, step_m, least_width_m, max_gap_m);
-    });
+    auto steps = log.run("grasp/step_points", boundary.size(),
+                         [&] { return step_points(boundary, step_m, least_width_m, max_gap_m); });
     if (!steps) return {};
     log.out("grasp/step_points", steps.value().size());
-    const auto candidates = log.run("grasp/grasp_candidates", steps.value().size(), [&] {
+    auto candidates = log.run("grasp/grasp_candidates", steps.value().size(), [&] {
         return grasp_candidates(boundary, steps.value(), gripper.max_width_m, max_gap_m,
                                 config.grasp_candidates);
     });
-    if (!candidates) return {};
+    if (!candidates) return {std::move(steps).value(), {}};
     log.out("grasp/grasp_candidates", candidates.value().size());
-    return candidates.value();
+    return {std::move(steps).value(), std::move(candidates).value()};
 }
 
 /// Heights of a concavity's samples over its working plane, asked for by their places in it.
@@ -117,6 +119,21 @@ private:
     std::vector<double> heights_;
 };
 
+Eigen::Vector3d lifted(const WorkingPlane& plane, const HeightMap& heights,
+                       const Eigen::Vector2d& place) {
+    return plane.X_PW * Eigen::Vector3d(place.x(), place.y(), heights.at(place));
+}
+
+TracedBoundary traced(const WorkingPlane& plane, const HeightMap& heights,
+                      const std::vector<Eigen::Vector2d>& boundary,
+                      const std::vector<StepPoint>& steps) {
+    TracedBoundary trace;
+    trace.X_PW = plane.X_PW;
+    for (const auto& place : boundary) trace.ordered_P.push_back(lifted(plane, heights, place));
+    for (const auto& step : steps) trace.steps_P.push_back(lifted(plane, heights, step.point));
+    return trace;
+}
+
 ClosingAxis lifted(const WorkingPlane& plane, const HeightMap& heights,
                    const GraspCandidate& candidate) {
     const double height = 0.5 * (heights.at(candidate.left_W) + heights.at(candidate.right_W));
@@ -133,11 +150,13 @@ ClosingAxis lifted(const WorkingPlane& plane, const HeightMap& heights,
 
 /// Sections II-D and II-E on one working plane.
 std::vector<ClosingAxis> axes_on(const WorkingPlane& plane, const Gripper& gripper,
-                                 const PlannerConfig& config, StageLog& log) {
+                                 const PlannerConfig& config, StageLog& log,
+                                 TracedBoundary* trace) {
     const auto boundary = ordered_boundary(plane, config, log);
-    const auto candidates = candidates_on(boundary, plane.spacing_m, gripper, config, log);
-    if (candidates.empty()) return {};
+    const auto [steps, candidates] = walk_along(boundary, plane.spacing_m, gripper, config, log);
+    if (candidates.empty() && (trace == nullptr || boundary.size() < 2)) return {};
     const HeightMap heights(plane);
+    if (trace != nullptr) *trace = traced(plane, heights, boundary, steps);
     std::vector<ClosingAxis> axes;
     axes.reserve(candidates.size());
     for (const GraspCandidate& candidate : candidates) {
@@ -151,7 +170,7 @@ std::vector<ClosingAxis> axes_on(const WorkingPlane& plane, const Gripper& gripp
 std::vector<ClosingAxis> boundary_axes(const Concavity& concavity, std::int32_t index,
                                        const SurfaceSamples& surface, const PreparedObject& object,
                                        const Gripper& gripper, const PlannerConfig& config,
-                                       StageLog& log) {
+                                       StageLog& log, std::vector<TracedBoundary>* trace) {
     constexpr const char* kFrame = "regions/concavity_frame";
     const auto salient_P = points_of(surface, concavity.salient);
     const auto frame = log.run(kFrame, salient_P.size(), [&] {
@@ -163,12 +182,18 @@ std::vector<ClosingAxis> boundary_axes(const Concavity& concavity, std::int32_t 
 
     const auto enlarged_P = points_of(surface, concavity.enlarged);
     std::vector<std::vector<ClosingAxis>> axes(config.search.planes);
+    std::vector<TracedBoundary> traces(config.search.planes);
     each_logged(axes.size(), log, [&](std::size_t i, StageLog& part) {
         const Eigen::Isometry3d& X_PW = frame.value().planes[i].X_OW;
         const WorkingPlane plane{X_PW, enlarged_P, project_points(salient_P, X_PW),
                                  project_points(enlarged_P, X_PW), surface.spacing_m};
-        axes[i] = axes_on(plane, gripper, config, part);
+        axes[i] = axes_on(plane, gripper, config, part, trace == nullptr ? nullptr : &traces[i]);
     });
+    for (TracedBoundary& boundary : traces) {
+        if (boundary.ordered_P.size() < 2) continue;
+        boundary.concavity = index;
+        trace->push_back(std::move(boundary));
+    }
     std::vector<ClosingAxis> all;
     for (const auto& of_plane : axes) {
         for (ClosingAxis axis : of_plane) {

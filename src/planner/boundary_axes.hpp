@@ -15,9 +15,10 @@ namespace graspd::planner_detail {
 ///
 /// Each P-Q is lifted out of the plane to the height at which the enlarged set's samples stand
 /// near P and Q. A plane whose outline is degenerate gives no candidate.
+/// @param trace  where the boundaries go, best plane first; null: nowhere
 std::vector<ClosingAxis> boundary_axes(const Concavity& concavity, std::int32_t index,
                                        const SurfaceSamples& surface, const PreparedObject& object,
                                        const Gripper& gripper, const PlannerConfig& config,
-                                       StageLog& log);
+                                       StageLog& log, std::vector<TracedBoundary>* trace = nullptr);
 
 }  // namespace graspd::planner_detail

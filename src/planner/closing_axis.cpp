@@ -24,4 +24,15 @@ Eigen::Isometry3d local_frame(const ClosingAxis& axis, const ApproachPose& pose)
     return X_PG;
 }
 
+TracedCandidate traced(const ClosingAxis& axis, const ApproachPose& pose,
+                       const std::string& gripper_name) {
+    TracedCandidate candidate;
+    candidate.X_PG = local_frame(axis, pose);
+    candidate.width_m = (axis.right_P - axis.left_P).norm();
+    candidate.gripper_name = gripper_name;
+    candidate.source = axis.source;
+    candidate.concavity = axis.concavity;
+    return candidate;
+}
+
 }  // namespace graspd::planner_detail

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include <Eigen/Geometry>
 
+#include "graspd/planner/plan_trace.hpp"
 #include "graspd/planner/plan_types.hpp"
 
 namespace graspd::planner_detail {
@@ -33,5 +35,9 @@ ClosingAxis axis_through(const Eigen::Isometry3d& X_PG, double width_m);
 /// Grasp frame of Figs. 16-17: Gx along the axis, Gz turned about it from the reference direction,
 /// origin in the middle between the axis's ends, or deeper.
 Eigen::Isometry3d local_frame(const ClosingAxis& axis, const ApproachPose& pose);
+
+/// The hand of a gripper on an axis, for a trace.
+TracedCandidate traced(const ClosingAxis& axis, const ApproachPose& pose,
+                       const std::string& gripper_name);
 
 }  // namespace graspd::planner_detail

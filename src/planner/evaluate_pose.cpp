@@ -32,9 +32,15 @@ public:
 
 private:
     bool reject(const char* reason) {
-        rejections_.add(reason);
+        rejections_.add(reason, [&] { return candidate(); });
         return false;
     }
+    bool miss(const std::string& reason, double margin, const char* unit, double scale) {
+        rejections_.add_miss({grasp_.X_PG, reason, margin, unit}, scale,
+                             [&] { return candidate(); });
+        return false;
+    }
+    TracedCandidate candidate() const;
     bool judge(const MotionCheck& check);
     Result<LocalCloud> close_from_widest() const;
 
@@ -42,14 +48,20 @@ private:
     Rejections& rejections_;
     StageLog& log_;
     LocalCloud cloud_;
+    bool balanced_ = false;  ///< whether the evidence holds the balance yet
 };
+
+TracedCandidate Examination::candidate() const {
+    TracedCandidate so_far = traced(grasp_);
+    so_far.score = TracedCandidate::kUnknown;
+    if (!balanced_) so_far.beta_rad = so_far.min_friction = TracedCandidate::kUnknown;
+    return so_far;
+}
 
 bool Examination::judge(const MotionCheck& check) {
     if (check.free()) return true;
     if (check.block == MotionBlock::kTooWide) {
-        rejections_.add_miss(check.reason(), grasp_.X_PG, check.lacking_m, "m",
-                             judgement_.gripper.max_width_m);
-        return false;
+        return miss(check.reason(), check.lacking_m, "m", judgement_.gripper.max_width_m);
     }
     return reject(check.reason().c_str());
 }
@@ -135,13 +147,12 @@ bool Examination::balance() {
     evidence.friction = judgement_.request.options.friction;
     evidence.min_friction = min_friction(cloud_.left.point_G, cloud_.left.normal_G,
                                          cloud_.right.point_G, cloud_.right.normal_G);
+    balanced_ = true;
     if (evidence.min_friction <= evidence.friction) {
         log_.out("grasp/force_balance", 1);
         return true;
     }
-    rejections_.add_miss("slips", grasp_.X_PG, evidence.min_friction - evidence.friction, "1",
-                         evidence.friction);
-    return false;
+    return miss("slips", evidence.min_friction - evidence.friction, "1", evidence.friction);
 }
 
 /// Presses the fingers' whole faces on the object and compares the load with what they carry.
@@ -184,6 +195,19 @@ void Examination::grade() {
 }
 
 }  // namespace
+
+TracedCandidate traced(const GradedGrasp& grasp) {
+    TracedCandidate candidate;
+    candidate.X_PG = grasp.X_PG;
+    candidate.width_m = grasp.width_m;
+    candidate.gripper_name = grasp.gripper->name;
+    candidate.source = grasp.axis.source;
+    candidate.concavity = grasp.axis.concavity;
+    candidate.beta_rad = grasp.evidence.beta_rad;
+    candidate.min_friction = grasp.evidence.min_friction;
+    candidate.score = grasp.score.score;
+    return candidate;
+}
 
 std::optional<GradedGrasp> evaluate_pose(const ClosingAxis& axis, const ApproachPose& approach,
                                          const Judgement& judgement, Rejections& rejections,

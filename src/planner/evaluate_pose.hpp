@@ -26,6 +26,9 @@ inline RankedEntry entry_of(const GradedGrasp& grasp) {
     return {grasp.score.score, grasp.X_PG, grasp.gripper->finger_width_m, grasp.axis.concavity};
 }
 
+/// A pose that was examined, for a trace.
+TracedCandidate traced(const GradedGrasp& grasp);
+
 /// Sections II-E (local frame and cloud) and II-F for one pose: can the hand stand there, where do
 /// its pads touch, do the two sides balance, is the whole motion free. A pose that falls is
 /// counted by its typed reason.

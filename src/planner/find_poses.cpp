@@ -8,6 +8,8 @@
 namespace graspd::planner_detail {
 namespace {
 
+constexpr const char* kOutside = "outside_approach_cones";
+
 /// The approach cone that a hand's approach misses least.
 struct NearestCone {
     double outside_rad = 0.0;     ///< [rad] by how much; not above 0: inside
@@ -62,13 +64,14 @@ std::vector<ApproachPose> find_poses(const ClosingAxis& axis, const Judgement& j
             const Eigen::Isometry3d X_PG = local_frame(axis, pose);
             const NearestCone cone = nearest_cone(judgement, X_PG);
             const char* reason = line_blocked(judgement, X_PG, width_m);
+            const auto candidate = [&] { return traced(axis, pose, judgement.gripper.name); };
             if (cone.outside_rad > 0.0 && reason == nullptr) {
-                rejections.add_miss("outside_approach_cones", X_PG, cone.outside_rad, "rad",
-                                    cone.half_angle_rad);
+                rejections.add_miss({X_PG, kOutside, cone.outside_rad, "rad"}, cone.half_angle_rad,
+                                    candidate);
             } else if (cone.outside_rad > 0.0) {
-                rejections.add("outside_approach_cones");
+                rejections.add(kOutside, candidate);
             } else if (reason != nullptr) {
-                rejections.add(reason);
+                rejections.add(reason, candidate);
             } else {
                 poses.push_back(pose);
             }

@@ -27,6 +27,16 @@ Result<LocalCloud> close_at(const Eigen::Isometry3d& X_PG, const Judgement& judg
     }
 }
 
+/// The hand of a candidate, for a trace.
+TracedCandidate traced(const Eigen::Isometry3d& X_PG, double width_m, const Judgement& judgement) {
+    TracedCandidate candidate;
+    candidate.X_PG = X_PG;
+    candidate.width_m = width_m;
+    candidate.gripper_name = judgement.gripper.name;
+    candidate.source = kCandidate;
+    return candidate;
+}
+
 /// The line that a hand closes along; a linkage's pads stand the further forward the narrower.
 /// @return nothing when there is none: the reason has been counted
 std::optional<ClosingAxis> closing_axis(const Eigen::Isometry3d& X_PH, const Judgement& judgement,
@@ -36,13 +46,13 @@ std::optional<ClosingAxis> closing_axis(const Eigen::Isometry3d& X_PH, const Jud
         Eigen::Isometry3d X_PG = X_PH * grasp_in_hand(judgement.gripper, width_m);
         const auto cloud = close_at(X_PG, judgement);
         if (!cloud.ok()) {
-            rejections.add("no_contact");
+            rejections.add("no_contact", [&] { return traced(X_PG, width_m, judgement); });
             return std::nullopt;
         }
         const double left_m = cloud.value().left.x_G, right_m = cloud.value().right.x_G;
         const double met_m = right_m - left_m;
         if (met_m <= judgement.gripper.min_width_m) {
-            rejections.add("too_thin");
+            rejections.add("too_thin", [&] { return traced(X_PG, met_m, judgement); });
             return std::nullopt;
         }
         const bool settled = std::abs(met_m - width_m) < kSettled_m || step == kMostSteps;
@@ -68,11 +78,15 @@ struct Attempt {
 
 void judge(std::size_t index, const Judgement& judgement, Attempt& attempt) {
     const Eigen::Isometry3d& X_FH = judgement.request.candidates_FH[index];
+    const Eigen::Isometry3d X_PH = judgement.X_FP.inverse() * X_FH;
+    const double widest_m = judgement.gripper.max_width_m;
     if (!is_allowed(X_FH, judgement.request)) {
-        attempt.rejections.add("outside_approach_cones");
+        attempt.rejections.add("outside_approach_cones", [&] {
+            return traced(X_PH * grasp_in_hand(judgement.gripper, widest_m), widest_m, judgement);
+        });
         return;
     }
-    auto axis = closing_axis(judgement.X_FP.inverse() * X_FH, judgement, attempt.rejections);
+    auto axis = closing_axis(X_PH, judgement, attempt.rejections);
     if (!axis) return;
     axis->source = kCandidate;
     axis->candidate = static_cast<std::int32_t>(index);
@@ -83,7 +97,8 @@ void judge_blocks(const Judgement& judgement, StageLog& log, SearchResult& resul
     constexpr const char* kStage = "planner/judge_candidates";
     const std::size_t count = judgement.request.candidates_FH.size();
     for (std::size_t start = 0; start < count; start += kBlock) {
-        std::vector<Attempt> attempts(std::min(kBlock, count - start));
+        const Attempt untried{{}, Rejections(judgement.traced), {}};
+        std::vector<Attempt> attempts(std::min(kBlock, count - start), untried);
         log.run(kStage, attempts.size(), [&] {
             for_blocks(attempts.size(), 1, [&](std::size_t first, std::size_t last) {
                 for (std::size_t i = first; i < last; ++i) judge(start + i, judgement, attempts[i]);
@@ -103,7 +118,7 @@ void judge_blocks(const Judgement& judgement, StageLog& log, SearchResult& resul
 }  // namespace
 
 SearchResult judge_candidates(const Judgement& judgement, StageLog& log) {
-    SearchResult result;
+    SearchResult result{{}, Rejections(judgement.traced), {}, {}};
     try {
         judge_blocks(judgement, log, result);
     } catch (const Stopped& stopped) {

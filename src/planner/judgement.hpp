@@ -19,6 +19,7 @@ struct Judgement {
     Eigen::Vector3d center_of_mass_P = Eigen::Vector3d::Zero();  ///< [m]
     double mass_kg = 0.1;
     std::optional<Eigen::Vector3d> down_P;  ///< unit, of gravity; absent: not known
+    bool traced = false;                    ///< whether candidates are kept for a PlanTrace
 };
 
 }  // namespace graspd::planner_detail

@@ -82,11 +82,13 @@ const char* probe(ProbedAxis& probed, const Judgement& judgement) {
 /// Counts an axis that fell; one that is too wide misses by what the opening lacks.
 void count(const ClosingAxis& axis, const char* reason, const Judgement& judgement,
            Rejections& rejections) {
-    if (reason != kTooWide) return rejections.add(reason);
+    const auto candidate = [&] { return traced(axis, {}, judgement.gripper.name); };
+    if (reason != kTooWide) return rejections.add(reason, candidate);
     const double opening_m = judgement.gripper.max_width_m;
     const double margin_m = least_preshape_margin_m(judgement.config.manipulability);
     const double needed_m = (axis.right_P - axis.left_P).norm() + 2.0 * margin_m;
-    rejections.add_miss(reason, local_frame(axis, {}), needed_m - opening_m, "m", opening_m);
+    rejections.add_miss({local_frame(axis, {}), reason, needed_m - opening_m, "m"}, opening_m,
+                        candidate);
 }
 
 }  // namespace

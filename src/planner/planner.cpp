@@ -12,6 +12,7 @@
 #include "search_grasps.hpp"
 #include "select_grasps.hpp"
 #include "suggest.hpp"
+#include "trace_plan.hpp"
 
 namespace graspd {
 namespace {
@@ -89,17 +90,18 @@ struct Scene {
 };
 
 Judgement judgement_of(const PlanRequest& request, const Scene& scene, const Gripper& gripper,
-                       const PlannerConfig& config) {
-    return {request,     scene.object, scene.surroundings.world(), gripper,
-            config,      scene.X_FP,   scene.center_of_mass_P,     scene.mass_kg,
-            scene.down_P};
+                       const PlannerConfig& config, bool traced = false) {
+    return {request,      scene.object, scene.surroundings.world(), gripper,
+            config,       scene.X_FP,   scene.center_of_mass_P,     scene.mass_kg,
+            scene.down_P, traced};
 }
 
 /// Sections II-B to II-F (concavities, boundaries, candidates, force balance, manipulability): what
 /// there is within the limits of a request. When it is stopped, what the rounds until then gave.
 Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const PlannerConfig& config,
-                          StageLog& log) {
+                          StageLog& log, bool traced = false) {
     Found found;
+    found.rejections = Rejections(traced);
     std::vector<GradedGrasp> grasps;
     for (std::size_t i = 0; i < request.grippers.size() && !found.stopped; ++i) {
         const Gripper& gripper = request.grippers[i];
@@ -109,11 +111,12 @@ Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const Planne
             if (!seen) return seen.error();
             scene.seen.push_back(std::move(seen).value());
         }
-        const Judgement judgement = judgement_of(request, scene, gripper, config);
+        const Judgement judgement = judgement_of(request, scene, gripper, config, traced);
         auto of_gripper = searches ? search_grasps(judgement, scene.seen[i], log)
                                    : judge_candidates(judgement, log);
         std::ranges::move(of_gripper.grasps, std::back_inserter(grasps));
         found.rejections.merge(of_gripper.rejections);
+        found.boundaries.push_back(std::move(of_gripper.boundaries));
         found.stopped = of_gripper.stopped;
     }
     // II-F: the best per concavity, then the best over all; of what was found until a stop as well.
@@ -172,7 +175,7 @@ std::string suggestion_for(const PlanRequest& request, const Found& found, Scene
 
 /// Throws Stopped where the caller wants no more; `answer` then holds what was concluded.
 PlanReply plan_to_the_end(const PlanRequest& request, PreparedObjectPtr& object,
-                          const PlannerConfig& config, Answer& answer) {
+                          const PlannerConfig& config, Answer& answer, PlanTrace* trace) {
     if (const auto bad = check_settings(config)) return answer.refuse(*bad);
     if (const auto bad = check_request(request)) return answer.refuse(*bad);
     // II-A: the object and its concavity.
@@ -182,8 +185,10 @@ PlanReply plan_to_the_end(const PlanRequest& request, PreparedObjectPtr& object,
     if (units.value()) answer.reply.report.findings.push_back(*units.value());
 
     Scene scene(request, *object);
-    const auto found = find_grasps(request, scene, config, answer.log);
+    if (trace != nullptr) trace_object(scene.X_FP, scene.object, scene.center_of_mass_P, *trace);
+    const auto found = find_grasps(request, scene, config, answer.log, trace != nullptr);
     if (!found) return answer.refuse(found.error());
+    if (trace != nullptr) trace_search(request, scene.seen, found.value(), *trace);
     answer.conclude(found.value(), scene.X_FP);
     if (found.value().stopped) return answer.stop(*found.value().stopped);
     measure_tolerances(request, answer.reply.grasps, scene, config, answer.log);
@@ -210,17 +215,18 @@ double object_mass_kg(const PlanOptions& options, double volume_m3) {
 }
 
 PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
-               const StopQuery& stop_requested) {
+               const StopQuery& stop_requested, PlanTrace* trace) {
     PreparedObjectPtr object;
-    return plan(request, object, config, stop_requested);
+    return plan(request, object, config, stop_requested, trace);
 }
 
 PlanReply plan(const PlanRequest& request, PreparedObjectPtr& object, const PlannerConfig& config,
-               const StopQuery& stop_requested) {
+               const StopQuery& stop_requested, PlanTrace* trace) {
     const StopScope stoppable(stop_requested);
+    if (trace != nullptr) *trace = {};
     Answer answer(request);
     try {
-        return plan_to_the_end(request, object, config, answer);
+        return plan_to_the_end(request, object, config, answer, trace);
     } catch (const Stopped& stopped) {
         return answer.stop(stopped);
     }

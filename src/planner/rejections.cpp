@@ -21,10 +21,18 @@ void Rejections::keep(const Miss& miss) {
     if (misses_.size() > kMostMisses) misses_.pop_back();
 }
 
+void Rejections::keep(TracedCandidate candidate, const std::string& reason) {
+    candidate.reason = reason;
+    traced_candidates_.push_back(std::move(candidate));
+}
+
 void Rejections::merge(const Rejections& other) {
     for (const auto& [reason, count] : other.counts_) add(reason, count);
     for (const auto& [reason, margin] : other.least_margins_) note(reason, margin);
     for (const Miss& miss : other.misses_) keep(miss);
+    if (!traced_) return;
+    traced_candidates_.insert(traced_candidates_.end(), other.traced_candidates_.begin(),
+                              other.traced_candidates_.end());
 }
 
 void Rejections::note(const std::string& reason, double margin) {

@@ -25,7 +25,7 @@ struct Attempt {
 /// Evaluates the poses of one axis.
 Attempt try_axis(const ClosingAxis& axis, const Judgement& judgement) {
     constexpr const char* kPoses = "planner/find_poses";
-    Attempt attempt;
+    Attempt attempt{{}, Rejections(judgement.traced), {}, 0};
     const auto poses =
         attempt.log.run(kPoses, 1, [&] { return find_poses(axis, judgement, attempt.rejections); });
     attempt.log.out(kPoses, poses.size());
@@ -44,7 +44,8 @@ Attempt try_axis(const ClosingAxis& axis, const Judgement& judgement) {
 class Round {
 public:
     Round(const Judgement& judgement, std::vector<ClosingAxis> ordered)
-        : judgement_(judgement),
+        : rejections_(judgement.traced),
+          judgement_(judgement),
           pending_(std::move(ordered)),
           poses_left_(judgement.config.search.poses_per_round) {}
 
@@ -62,6 +63,9 @@ private:
         return std::ranges::any_of(
             others, [&](const ClosingAxis& other) { return similar(axis, other, judgement_); });
     }
+    void leave(const ClosingAxis& axis, const char* reason) {
+        rejections_.add(reason, [&] { return traced(axis, {}, judgement_.gripper.name); });
+    }
     std::vector<ClosingAxis> next_batch();
     void accept(const ClosingAxis& axis, Attempt attempt, StageLog& log);
 
@@ -77,7 +81,7 @@ std::vector<ClosingAxis> Round::next_batch() {
     std::vector<ClosingAxis> batch, rest;
     for (const ClosingAxis& axis : pending_) {
         if (batch.size() < kBatch && like_any(axis, held_)) {
-            rejections_.add("axis_similar");
+            leave(axis, "axis_similar");
         } else if (batch.size() < kBatch && !like_any(axis, batch)) {
             batch.push_back(axis);
         } else {
@@ -90,8 +94,7 @@ std::vector<ClosingAxis> Round::next_batch() {
 
 void Round::accept(const ClosingAxis& axis, Attempt attempt, StageLog& log) {
     if (is_full()) {
-        rejections_.add("axis_surplus");
-        return;
+        return leave(axis, "axis_surplus");
     }
     log.merge(attempt.log);
     poses_left_ -= std::min(poses_left_, attempt.poses);
@@ -109,7 +112,7 @@ void Round::try_batch(StageLog& log) {
     for (std::size_t i = 0; i < batch.size(); ++i) accept(batch[i], std::move(attempts[i]), log);
     if (!is_full()) return;
     for (const ClosingAxis& axis : pending_) {
-        rejections_.add(like_any(axis, held_) ? "axis_similar" : "axis_surplus");
+        leave(axis, like_any(axis, held_) ? "axis_similar" : "axis_surplus");
     }
     pending_.clear();
 }
@@ -126,7 +129,12 @@ public:
     }
     void run(std::vector<ClosingAxis> axes);
     /// Counts axes of a source that the request does not ask for.
-    void leave_out(std::size_t axes) { result_.rejections.add("axis_source_unwanted", axes); }
+    void leave_out(const std::vector<ClosingAxis>& axes) {
+        for (const ClosingAxis& axis : axes) {
+            result_.rejections.add("axis_source_unwanted",
+                                   [&] { return traced(axis, {}, judgement_.gripper.name); });
+        }
+    }
 
 private:
     const Judgement& judgement_;
@@ -136,7 +144,7 @@ private:
 
 void Rounds::run(std::vector<ClosingAxis> axes) {
     constexpr const char* kOrder = "planner/order_axes";
-    Rejections unfit;
+    Rejections unfit(judgement_.traced);
     const std::size_t found = axes.size();
     auto ordered =
         log_.run(kOrder, found, [&] { return order_axes(std::move(axes), judgement_, unfit); });
@@ -149,22 +157,29 @@ void Rounds::run(std::vector<ClosingAxis> axes) {
 }
 
 /// The paper's candidates of all concavities, each concavity on a thread of its own.
+/// @param boundaries  filled where candidates are traced
 std::vector<std::vector<ClosingAxis>> axes_of(const std::vector<Concavity>& concavities,
                                               const SurfaceSamples& surface,
-                                              const Judgement& judgement, StageLog& log) {
+                                              const Judgement& judgement, StageLog& log,
+                                              std::vector<TracedBoundary>& boundaries) {
     std::vector<std::vector<ClosingAxis>> axes(concavities.size());
+    std::vector<std::vector<TracedBoundary>> traces(concavities.size());
     each_logged(concavities.size(), log, [&](std::size_t i, StageLog& part) {
         axes[i] = boundary_axes(concavities[i], static_cast<std::int32_t>(i), surface,
-                                judgement.object, judgement.gripper, judgement.config, part);
+                                judgement.object, judgement.gripper, judgement.config, part,
+                                judgement.traced ? &traces[i] : nullptr);
     });
+    for (auto& trace : traces) std::ranges::move(trace, std::back_inserter(boundaries));
     return axes;
 }
 
 /// Every round that the request wants.
-void search(Rounds& rounds, const Judgement& judgement, const SeenSurface& seen, StageLog& log) {
+/// @param boundaries  filled where candidates are traced
+void search(Rounds& rounds, const Judgement& judgement, const SeenSurface& seen, StageLog& log,
+            std::vector<TracedBoundary>& boundaries) {
     const auto& [surface, concavities] = seen;
     if (rounds.wanted(kBoundary)) {
-        for (auto& axes : axes_of(concavities, surface, judgement, log)) {
+        for (auto& axes : axes_of(concavities, surface, judgement, log, boundaries)) {
             rounds.run(std::move(axes));
         }
     }
@@ -178,7 +193,7 @@ void search(Rounds& rounds, const Judgement& judgement, const SeenSurface& seen,
         if (rounds.wanted(source)) {
             rounds.run(std::move(of_source));
         } else {
-            rounds.leave_out(of_source.size());
+            rounds.leave_out(of_source);
         }
     }
 }
@@ -186,10 +201,10 @@ void search(Rounds& rounds, const Judgement& judgement, const SeenSurface& seen,
 }  // namespace
 
 SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen, StageLog& log) {
-    SearchResult result;
+    SearchResult result{{}, Rejections(judgement.traced), {}, {}};
     Rounds rounds(judgement, log, result);
     try {
-        search(rounds, judgement, seen, log);
+        search(rounds, judgement, seen, log, result.boundaries);
         refine_grasps(result.grasps, judgement, log);
     } catch (const Stopped& stopped) {
         result.stopped = stopped;

@@ -13,6 +13,7 @@ namespace graspd::planner_detail {
 struct SearchResult {
     std::vector<GradedGrasp> grasps;  ///< in the order of the search
     Rejections rejections;
+    std::vector<TracedBoundary> boundaries;  ///< where candidates are traced
     std::optional<Stopped> stopped;  ///< the caller wanted no more: the round under way was dropped
 };
 

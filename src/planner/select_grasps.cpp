@@ -20,8 +20,12 @@ Result<std::vector<GradedGrasp>> best_of(const std::vector<GradedGrasp>& grasps,
     const auto ranking =
         log.run(kRank, entries.size(), [&] { return rank_grasps(entries, most, config); });
     if (!ranking) return ranking.error();
-    rejections.add("duplicate", ranking.value().duplicates);
-    rejections.add("surplus", ranking.value().surplus);
+    for (const std::size_t i : ranking.value().duplicates) {
+        rejections.add("duplicate", [&] { return traced(grasps[i]); });
+    }
+    for (const std::size_t i : ranking.value().surplus) {
+        rejections.add("surplus", [&] { return traced(grasps[i]); });
+    }
     std::vector<GradedGrasp> kept;
     for (const std::size_t i : ranking.value().order) kept.push_back(grasps[i]);
     log.out(kRank, kept.size());
@@ -57,8 +61,8 @@ void drop_nearer(std::vector<GradedGrasp>& grasps, const CollisionWorld& world_P
         if (lacking_m <= 0.0) {
             clear.push_back(std::move(grasps[i]));
         } else {
-            rejections.add_miss("clearance", grasps[i].X_PG, lacking_m, "m",
-                                config.search.most_clearance_m);
+            rejections.add_miss({grasps[i].X_PG, "clearance", lacking_m, "m"},
+                                config.search.most_clearance_m, [&] { return traced(grasps[i]); });
         }
     }
     grasps = std::move(clear);
@@ -133,6 +137,7 @@ Result<std::vector<Grasp>> select_grasps(std::vector<GradedGrasp> grasps,
     std::vector<Grasp> result;
     for (const GradedGrasp& grasp : best.value()) {
         result.push_back(in_frame_F(grasp, request, config, X_FP));
+        rejections.trace([&] { return traced(grasp); });
     }
     return result;
 }

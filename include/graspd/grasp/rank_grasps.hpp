@@ -34,9 +34,10 @@ struct RankedEntry {
 
 /// The order of grasps, and what fell on the way.
 struct Ranking {
-    std::vector<std::size_t> order;  ///< indices of entries, best first
-    std::uint64_t duplicates = 0;    ///< entries that a better one stands for
-    std::uint64_t surplus = 0;       ///< entries beyond max_grasps
+    // Indices of entries, best first; every entry is in one of them.
+    std::vector<std::size_t> order;       ///< the ranked ones
+    std::vector<std::size_t> duplicates;  ///< those that a better one stands for
+    std::vector<std::size_t> surplus;     ///< those beyond max_grasps
 };
 
 /// Angle of the rotation between two grasps [rad]; a grasp and the same with fingers swapped (half

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "graspd/base/stop.hpp"
+#include "graspd/planner/plan_trace.hpp"
 #include "graspd/planner/plan_types.hpp"
 #include "graspd/planner/planner_config.hpp"
 #include "graspd/planner/prepared_object.hpp"
@@ -23,8 +24,10 @@ double object_mass_kg(const PlanOptions& options, double volume_m3);
 /// Never throws for what an input can cause: every outcome is a status with a message. Pure apart
 /// from the stages' wall times in the report, so safe to call from any number of threads; the same
 /// request and configuration give the same reply whatever runs beside it.
+/// @param trace  filled with what the plan saw on its way, for reports; the reply is the same
+///               without. Null: nothing is kept
 PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
-               const StopQuery& stop_requested = {});
+               const StopQuery& stop_requested = {}, PlanTrace* trace = nullptr);
 
 /// The same for an object that may have been prepared before. The reply is that of the plan above
 /// to the last bit, but that stages whose work was done before report the counts of that work and
@@ -36,6 +39,6 @@ PlanReply plan(const PlanRequest& request, const PlannerConfig& config,
 ///                request was refused before. One that was prepared under other settings of the
 ///                stages before the search is refused as kInvalidRequest.
 PlanReply plan(const PlanRequest& request, PreparedObjectPtr& object, const PlannerConfig& config,
-               const StopQuery& stop_requested = {});
+               const StopQuery& stop_requested = {}, PlanTrace* trace = nullptr);
 
 }  // namespace graspd
