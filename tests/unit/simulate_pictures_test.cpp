@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include <gif_lib.h>
 #include <png.h>
 
 #include "graspd/simulate/render_frames.hpp"
+#include "graspd/simulate/render_views.hpp"
 #include "graspd/simulate/write_image.hpp"
 #include "support/shapes.hpp"
 
@@ -134,6 +137,80 @@ TEST(RenderFrames, NothingToDrawIsNoImage) {
     const auto images = render_frames(test::box({1, 1, 1}), Gripper{}, 0.04, {}, {});
     ASSERT_TRUE(images.ok());
     EXPECT_TRUE(images.value().empty());
+}
+
+int count_of(const Image& image, bool (*pick)(int red, int green, int blue)) {
+    int count = 0;
+    for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
+        count += pick(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]) ? 1 : 0;
+    }
+    return count;
+}
+bool is_blue(int red, int /*green*/, int blue) {
+    return blue > red + 60;
+}
+bool is_red(int red, int green, int blue) {
+    return red > green + 60 && red > blue + 60;
+}
+bool is_green(int red, int green, int blue) {
+    return green > red + 60 && green > blue + 60;
+}
+bool is_orange(int red, int green, int blue) {
+    return red > blue + 60 && red < green + 80;
+}
+
+/// A block that is blue at its left end and red at its right one; the hand above it.
+RestingScene block() {
+    RestingScene scene;
+    scene.mesh_F = test::box({0.08, 0.04, 0.04}, 12);
+    for (const Vector3d& vertex : scene.mesh_F.vertices) {
+        scene.shares.push_back(vertex.x() > 0.0 ? 1.0 : 0.0);
+    }
+    scene.X_FG.linear().col(1) = -Vector3d::UnitY();
+    scene.X_FG.linear().col(2) = -Vector3d::UnitZ();
+    scene.X_FG.translation().z() = 0.05;
+    scene.width_m = 0.04;
+    return scene;
+}
+
+TEST(RenderViews, ShowsWhatEachViewAsksFor) {
+    const PictureDot dot{{0.0, -0.02, 0.02}, {0.0F, 1.0F, 0.0F}};
+    RestingScene scene = block();
+    scene.dot_m = 0.01;
+    RenderConfig config;
+    config.width = config.height = 160;
+    const auto images = render_views(
+        scene, {{}, {true, false, {}}, {false, true, {}}, {false, false, {dot}}}, config);
+    ASSERT_TRUE(images.ok()) << images.error().detail;
+    const auto& views = images.value();
+    ASSERT_EQ(views.size(), 4u);
+    for (const auto pick : {is_blue, is_red, is_green}) EXPECT_EQ(count_of(views[0], pick), 0);
+    EXPECT_GT(count_of(views[1], is_blue), 100);
+    EXPECT_GT(count_of(views[1], is_red), 100);
+    EXPECT_EQ(count_of(views[0], is_orange), 0);
+    EXPECT_GT(count_of(views[2], is_orange), 100);
+    EXPECT_EQ(count_of(views[2], is_blue), 0);
+    EXPECT_GT(count_of(views[3], is_green), 10);
+    EXPECT_EQ(count_of(views[3], is_orange), 0);
+}
+
+TEST(RenderViews, SharesThatAreNoneLieOnTheHull) {
+    RestingScene scene = block();
+    std::ranges::fill(scene.shares, std::numeric_limits<double>::quiet_NaN());
+    const auto images = render_views(scene, {{true, false, {}}}, {});
+    ASSERT_TRUE(images.ok()) << images.error().detail;
+    EXPECT_GT(count_of(images.value()[0], is_blue), 1000);
+    EXPECT_EQ(count_of(images.value()[0], is_red), 0);
+}
+
+TEST(RenderViews, OneShareForEachVertex) {
+    RestingScene scene = block();
+    scene.shares.pop_back();
+    const auto images = render_views(scene, {{}}, {});
+    ASSERT_FALSE(images.ok());
+    EXPECT_EQ(images.error().code, PlanErrorCode::kInvalidInput);
+    const std::string vertices = std::to_string(scene.mesh_F.vertices.size()) + " vertices";
+    EXPECT_NE(images.error().detail.find(vertices), std::string::npos) << images.error().detail;
 }
 
 }  // namespace
