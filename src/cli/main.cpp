@@ -69,7 +69,8 @@ void add_plan(CLI::App& command, Arguments& to) {
                      "say what would help, also when there are grasps");
     command.add_option("--seed", to.plan.seed, "of every random draw");
     command.add_option("--frame", to.plan.frame_id, "name of the file's frame, echoed");
-    command.add_option("--report", to.output.report, "directory for reply.json and reply.txt");
+    command.add_option("--report", to.output.report,
+                       "directory for reply.json and reply.txt; plan: also report.html, pictures");
 }
 
 /// What plans in this process takes.

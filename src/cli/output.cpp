@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <utility>
 
 #include "exit_code.hpp"
 #include "write_table.hpp"
@@ -27,14 +28,18 @@ std::optional<PlanError> write_output(const std::string& text, const std::string
     return PlanError{PlanErrorCode::kInternal, "standard output cannot be written"};
 }
 
-std::optional<PlanError> write_report(const std::string& json, const std::string& table,
-                                      const std::string& directory) {
+std::optional<PlanError> write_report(const ReportFiles& files, const std::string& directory) {
     if (directory.empty()) return std::nullopt;
     const std::filesystem::path place = directory;
     std::error_code ignored;  // a directory that is not there shows when the file is written
     std::filesystem::create_directories(place, ignored);
-    if (auto error = write_file(place / "reply.json", json)) return error;
-    return write_file(place / "reply.txt", table);
+    const std::pair<const char*, const std::string&> named[] = {
+        {"reply.json", files.json}, {"reply.txt", files.table}, {"report.html", files.page}};
+    for (const auto& [name, text] : named) {
+        if (text.empty()) continue;
+        if (auto error = write_file(place / name, text)) return error;
+    }
+    return std::nullopt;
 }
 
 int fail(const PlanError& error) {
@@ -43,10 +48,12 @@ int fail(const PlanError& error) {
 }
 
 int finish(const PlanReply& reply, std::span<const Gripper> grippers, const ResultOrigin& origin,
-           const OutputArguments& arguments) {
+           const OutputArguments& arguments, std::string page) {
     const std::string json = write_json(reply, grippers, origin);
     const std::string table = write_table(reply, grippers, origin);
-    if (auto error = write_report(json, table, arguments.report)) return fail(*error);
+    if (auto error = write_report({json, table, std::move(page)}, arguments.report)) {
+        return fail(*error);
+    }
     const bool as_json = arguments.format == "json";
     if (auto error = write_output(as_json ? json : table, arguments.out)) return fail(*error);
     if (exit_code(reply) != kExitOk) {

@@ -13,9 +13,10 @@ namespace {
 
 /// The object of a file, or one of a scene's.
 Result<ScenePlan> plan_object(const PlanArguments& arguments, PlanRequest request,
-                              const PlannerConfig& config, const StopQuery& stop) {
+                              const PlannerConfig& config, const StopQuery& stop,
+                              PlanTrace* trace) {
     if (!arguments.scene) {
-        PlanReply reply = plan(request, config, stop);
+        PlanReply reply = plan(request, config, stop, trace);
         return ScenePlan{std::move(request), std::move(reply)};
     }
     std::optional<Eigen::Vector3d> place;
@@ -24,13 +25,13 @@ Result<ScenePlan> plan_object(const PlanArguments& arguments, PlanRequest reques
         if (!parsed.ok()) return parsed.error();
         place = parsed.value();
     }
-    return plan_scene(request, place, config, stop);
+    return plan_scene(request, place, config, stop, trace);
 }
 
 }  // namespace
 
-Result<ProcessPlan> plan_in_process(const PlanArguments& arguments,
-                                    const std::string& config_file) {
+Result<ProcessPlan> plan_in_process(const PlanArguments& arguments, const std::string& config_file,
+                                    PlanTrace* trace) {
     using Clock = std::chrono::steady_clock;
     const auto profiles = find_profiles();
     if (!profiles.ok()) return profiles.error();
@@ -43,7 +44,7 @@ Result<ProcessPlan> plan_in_process(const PlanArguments& arguments,
     const auto start = Clock::now();
     const std::chrono::duration<double> budget(request.value().options.time_budget_s);
     const StopQuery stop = [&] { return Clock::now() - start >= budget; };
-    auto planned = plan_object(arguments, std::move(request).value(), config.value(), stop);
+    auto planned = plan_object(arguments, std::move(request).value(), config.value(), stop, trace);
     if (!planned.ok()) return planned.error();
     PlanReply& reply = planned.value().reply;
     const std::chrono::duration<double, std::milli> taken = Clock::now() - start;

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "graspd/planner/plan_trace.hpp"
 #include "graspd/planner/planner_config.hpp"
 #include "plan_arguments.hpp"
 #include "write_json.hpp"
@@ -17,7 +18,9 @@ struct ProcessPlan {
 };
 
 /// Plans without a daemon, within the time budget.
+/// @param trace  as plan() takes it
 /// @return the first wrong argument; a plan that fails is a reply
-Result<ProcessPlan> plan_in_process(const PlanArguments& arguments, const std::string& config_file);
+Result<ProcessPlan> plan_in_process(const PlanArguments& arguments, const std::string& config_file,
+                                    PlanTrace* trace = nullptr);
 
 }  // namespace graspd::cli

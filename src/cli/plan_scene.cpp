@@ -60,7 +60,8 @@ std::size_t nearest_object(const SegmentedScene& scene, const Eigen::Vector3d& p
 
 Result<ScenePlan> plan_scene(const PlanRequest& request,
                              const std::optional<Eigen::Vector3d>& object_at_F,
-                             const PlannerConfig& config, const StopQuery& stop_requested) {
+                             const PlannerConfig& config, const StopQuery& stop_requested,
+                             PlanTrace* trace) {
     const auto* cloud = std::get_if<PointCloud>(&request.object_O);
     if (cloud == nullptr) {
         return PlanError{PlanErrorCode::kInvalidInput, "--scene needs a cloud, FILE is a mesh"};
@@ -78,7 +79,9 @@ Result<ScenePlan> plan_scene(const PlanRequest& request,
     std::size_t chosen = first;
     for (std::size_t i = first; i < last; ++i) {
         ScenePlan each{request_for(request, scene.value(), bodies, i), {}};
-        each.reply = plan(each.request, config, stop_requested);
+        PlanTrace traced;
+        each.reply =
+            plan(each.request, config, stop_requested, trace == nullptr ? nullptr : &traced);
         text << " " << i << " at (" << box_of(objects[i]).center().transpose()
              << "): " << to_string(each.reply.status);
         if (!each.reply.grasps.empty()) text << " " << best_score(each.reply);
@@ -86,6 +89,7 @@ Result<ScenePlan> plan_scene(const PlanRequest& request,
         if (best && best_score(each.reply) <= best_score(best->reply)) continue;
         best = std::move(each);
         chosen = i;
+        if (trace != nullptr) *trace = std::move(traced);
     }
     text << " this reply is for object " << chosen;
     std::vector<Finding>& findings = best->reply.report.findings;

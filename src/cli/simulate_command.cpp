@@ -65,7 +65,7 @@ std::optional<PlanError> write_result(const ProcessPlan& plan, const SimulationR
     const std::string json =
         write_simulation_json(write_json(plan.reply, plan.request.grippers, plan.origin), run);
     const std::string line = write_simulation_line(plan.reply, run);
-    if (auto error = write_report(json, line, output.report)) return error;
+    if (auto error = write_report({json, line, {}}, output.report)) return error;
     return write_output(output.format == "json" ? json : line, output.out);
 }
 
