@@ -188,7 +188,7 @@ TEST(ReportData, CandidatesOfTheReplyStandWhereItSays) {
                     grasp["position"][k].get<double>() - data["origin"][k].get<double>(), 1e-6);
     }
     for (std::size_t k = 0; k < 4; ++k) {
-        along += quaternion[4 * last + k] * grasp["quaternion"][k].get<double>();
+        along += double{quaternion[4 * last + k]} * grasp["quaternion"][k].get<double>();
     }
     EXPECT_NEAR(std::abs(along), 1.0, 1e-6);
     EXPECT_NEAR(beta[last], grasp["beta_rad"].get<double>(), 1e-6);

@@ -22,6 +22,7 @@ export function actionOf(key) {
 
 /** Whether a focused element needs the key for itself. */
 function wantsKey(element, key) {
+    if (element.closest('dialog:not([open])')) return false; // keeps the focus for a moment
     if (element.matches('input[type=range]')) return key.startsWith('Arrow') || key === 'Home';
     if (element.matches('input, select, textarea')) return true;
     return key === ' ' && element.matches('button, summary, a, label');
