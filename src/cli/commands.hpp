@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,6 +29,20 @@ struct SimulateArguments {
     std::string frames;      ///< directory for frame_0000.png and so on; empty: none
     std::string gif;         ///< file for an animation; empty: none
 };
+
+/// What `export` takes; docs/exports.md says which option serves which format.
+struct ExportArguments {
+    std::string file;           ///< a reply's JSON; "-": standard input
+    std::string format;         ///< one of kExportFormats
+    std::string gripper;        ///< name of a profile, or its file; empty: as the grasps say
+    std::uint32_t rank = 0;     ///< of the one grasp to export; 0: all
+    std::string object;         ///< its name in the other tool
+    std::string link;           ///< name of the link whose pose is written
+    std::string eef_transform;  ///< "X,Y,Z,QX,QY,QZ,QW": that link in the mounting frame H [m]
+    std::optional<double> object_scale;  ///< from the object file's numbers to metres
+    std::optional<double> hand_depth_m;  ///< [m] GPD's hand_depth
+};
+inline constexpr std::array kExportFormats = {"moveit", "isaac_grasp", "csv", "gpd", "graspgen"};
 
 // One function a subcommand; each returns the exit code (exit_code.hpp). Results go to standard
 // output or --out, everything else to standard error.
@@ -63,6 +78,10 @@ int run_concavity(const ObjectArguments& object, const std::string& method,
 /// @return kExitOk when it can be planned for, kExitUsage when it is refused
 int run_doctor(const ObjectArguments& object, const std::string& gripper_name,
                const std::string& config_file, const OutputArguments& output);
+
+/// Writes the grasps of a reply's JSON in the form that another tool reads (write_exports.hpp).
+/// @return kExitOk; kExitNoGrasp for a reply without grasps, of which nothing is written
+int run_export(const ExportArguments& arguments, const OutputArguments& output);
 
 /// Lists the known grippers.
 int run_grippers(const OutputArguments& output);

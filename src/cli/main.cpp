@@ -16,6 +16,7 @@ struct Arguments {
     OutputArguments output;
     DdsArguments dds;
     SimulateArguments simulate;
+    ExportArguments exports;
     std::string units;
     std::string config_file;
     std::string method;  ///< of `concavity`; empty: as configured
@@ -138,6 +139,47 @@ void add_request(CLI::App& app, Arguments& to, std::function<int()>& run) {
 }
 #endif
 
+const std::vector<std::string> kFormats(kExportFormats.begin(), kExportFormats.end());
+
+void add_export(CLI::App& app, Arguments& to, std::function<int()>& run) {
+    auto* command = app.add_subcommand("export", "write a reply's grasps for another tool");
+    ExportArguments& arguments = to.exports;
+    command->add_option("GRASPS", arguments.file, "JSON of --format json; -: standard input")
+        ->required();
+    command->add_option("--format", arguments.format, "what the grasps are written for")
+        ->required()
+        ->check(CLI::IsMember(kFormats));
+    command->add_option("-o,--out", to.output.out, "write the result to this file");
+    command->add_option("--rank", arguments.rank, "export this grasp alone; default: all")
+        ->check(CLI::Range(1u, 1000000u));
+    command->add_option("--gripper", arguments.gripper,
+                        "name of a profile, or a file; default: the profile that the grasps name");
+    command->add_option("--object", arguments.object,
+                        "its name there: collision object, object frame, or mesh file (graspgen)");
+    auto* link = command->add_option(
+        "--link", arguments.link, "name of the link whose pose is written (moveit, isaac_grasp)");
+    command
+        ->add_option("--eef-transform", arguments.eef_transform,
+                     "X,Y,Z,QX,QY,QZ,QW [m]: pose of that link in the gripper's mounting frame H")
+        ->needs(link);
+    command
+        ->add_option("--object-scale", arguments.object_scale,
+                     "from the object file's numbers to metres (isaac_grasp, graspgen)")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--hand-depth", arguments.hand_depth_m,
+                     "[m] hand_depth of GPD's settings; default: the fingers' length (gpd)")
+        ->check(CLI::PositiveNumber);
+    command->footer(
+        "Examples:\n"
+        "  graspctl plan mug.ply --gripper franka_hand --format json --out grasps.json\n"
+        "  graspctl export grasps.json --format moveit --object mug -o grasps.yaml\n"
+        "  graspctl export grasps.json --format moveit --rank 1 --link tool0 "
+        "--eef-transform=0,0,-0.1,0,0,0,1\n"
+        "  graspctl plan mug.ply --format json | graspctl export - --format csv");
+    command->callback([&] { run = [&] { return run_export(to.exports, to.output); }; });
+}
+
 void add_doctor(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* doctor =
         app.add_subcommand("doctor", "what is wrong with a mesh or cloud, what was repaired");
@@ -176,6 +218,7 @@ void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     });
 
     add_doctor(app, to, run);
+    add_export(app, to, run);
     auto* grippers = app.add_subcommand("grippers", "list the known grippers");
     add_format(*grippers, to);
     grippers->callback([&] { run = [&] { return run_grippers(to.output); }; });

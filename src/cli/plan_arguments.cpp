@@ -42,24 +42,25 @@ SupportPlane plane_under(const std::variant<TriangleMesh, PointCloud>& object,
     return {up, std::isfinite(lowest) ? lowest : 0.0};
 }
 
-/// Three numbers between commas.
-std::optional<Eigen::Vector3d> parse_triple(const std::string& text) {
+/// N numbers between commas.
+template <int N>
+std::optional<Eigen::Matrix<double, N, 1>> parse_numbers(const std::string& text) {
     const auto parts = split(text);
-    if (parts.size() != 3) return std::nullopt;
-    Eigen::Vector3d triple;
-    for (Eigen::Index i = 0; i < 3; ++i) {
+    if (parts.size() != static_cast<std::size_t>(N)) return std::nullopt;
+    Eigen::Matrix<double, N, 1> numbers;
+    for (Eigen::Index i = 0; i < N; ++i) {
         const std::string& part = parts[static_cast<std::size_t>(i)];
         const char* end = part.data() + part.size();
-        const auto got = std::from_chars(part.data(), end, triple[i]);
+        const auto got = std::from_chars(part.data(), end, numbers[i]);
         if (got.ec != std::errc{} || got.ptr != end) return std::nullopt;
     }
-    return triple;
+    return numbers;
 }
 
 }  // namespace
 
 Result<Eigen::Vector3d> parse_direction(const std::string& option, const std::string& text) {
-    const auto triple = parse_triple(text);
+    const auto triple = parse_numbers<3>(text);
     const double length = triple ? triple->norm() : 0.0;
     if (!std::isfinite(length) || length <= 0.0) {
         return wrong(option, text, "none or X,Y,Z, such as 0,0,1");
@@ -68,9 +69,24 @@ Result<Eigen::Vector3d> parse_direction(const std::string& option, const std::st
 }
 
 Result<Eigen::Vector3d> parse_place(const std::string& option, const std::string& text) {
-    const auto place = parse_triple(text);
+    const auto place = parse_numbers<3>(text);
     if (place && place->allFinite()) return *place;
     return wrong(option, text, "X,Y,Z in metres, such as 0,0,0.5");
+}
+
+Result<Eigen::Isometry3d> parse_pose(const std::string& option, const std::string& text) {
+    constexpr double kUnitTolerance = 1e-3;  // as on the wire
+    const auto numbers = parse_numbers<7>(text);
+    if (!numbers || !numbers->allFinite()) {
+        return wrong(option, text, "X,Y,Z,QX,QY,QZ,QW in metres, such as 0,0,0.1,0,0,0,1");
+    }
+    const Eigen::Vector4d xyzw = numbers->tail<4>();
+    if (std::abs(xyzw.norm() - 1.0) > kUnitTolerance) {
+        return wrong(option, text, "a pose with a quaternion of unit length");
+    }
+    Eigen::Isometry3d pose(Eigen::Quaterniond(xyzw).normalized());
+    pose.translation() = numbers->head<3>();
+    return pose;
 }
 
 Result<ObjectFile> read_object_file(const ObjectArguments& arguments) {

@@ -59,6 +59,10 @@ Result<PlanRequest> make_request(const PlanArguments& arguments,
 /// "x,y,z" as a point. @return kInvalidInput, naming the option
 Result<Eigen::Vector3d> parse_place(const std::string& option, const std::string& text);
 
+/// "x,y,z,qx,qy,qz,qw" as a pose; the quaternion is of unit length to 1e-3.
+/// @return kInvalidInput, naming the option
+Result<Eigen::Isometry3d> parse_pose(const std::string& option, const std::string& text);
+
 /// "x,y,z" as a unit vector. @return kInvalidInput, naming the option, for anything else, or a zero
 /// or non-finite one
 Result<Eigen::Vector3d> parse_direction(const std::string& option, const std::string& text);

@@ -1,14 +1,12 @@
 #include <algorithm>
 
 #include "convert_moveit.hpp"
+#include "graspd/base/moveit_motion.hpp"
 
 namespace graspd::dds {
 namespace {
 
 namespace codes = moveit::MoveItErrorCodes__Constants;
-
-/// The whole motion was checked; a robot that cannot go all of it may do with half.
-constexpr double kLeastShare = 0.5;
 
 std_msgs::msg::dds_::Header_ header_of(const MoveItCall& call, const std::string& frame_id) {
     std_msgs::msg::dds_::Header_ header;
@@ -41,7 +39,7 @@ moveit::GripperTranslation_ translation(const std_msgs::msg::dds_::Header_& head
     out.direction().header(header);
     out.direction().vector(write_vector(motion.direction_F));
     out.desired_distance(static_cast<float>(motion.distance_m));
-    out.min_distance(static_cast<float>(kLeastShare * motion.distance_m));
+    out.min_distance(static_cast<float>(kMoveItLeastShare * motion.distance_m));
     return out;
 }
 
@@ -52,8 +50,8 @@ moveit::GripperTranslation_ release(const Grasp& grasp, const MoveItHand& hand,
         return translation(header_of(call, call.target().header().frame_id()),
                            {-grasp.approach.direction_F, grasp.approach.distance_m});
     }
-    const Eigen::Vector3d back_P = hand.X_HP.linear().transpose() * -Eigen::Vector3d::UnitZ();
-    return translation(header_of(call, hand.parent_link), {back_P, grasp.approach.distance_m});
+    return translation(header_of(call, hand.parent_link),
+                       {-approach_in_link(hand), grasp.approach.distance_m});
 }
 
 std::string id_of(const Grasp& grasp, std::size_t rank, const MoveItCall& call) {
