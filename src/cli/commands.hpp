@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "command_line/command_tree.hpp"
 #include "output.hpp"
 #include "plan_arguments.hpp"
 
@@ -66,5 +67,12 @@ int run_doctor(const ObjectArguments& object, const std::string& gripper_name,
 
 /// Lists the known grippers.
 int run_grippers(const OutputArguments& output);
+
+/// Prints a script that completes graspctl's command line.
+/// @param shell  bash or zsh
+int run_completion(const command_line::CommandEntry& program, const std::string& shell);
+
+/// Prints graspctl's manual page.
+int run_man_page(const command_line::CommandEntry& program);
 
 }  // namespace graspd::cli
