@@ -49,6 +49,21 @@ if(TARGET graspd_simulate)
           COMPONENT libgraspd-dev)
 endif()
 
+# Manual pages and completion, where the build could run the programs (src/cli, src/server).
+if(TARGET graspctl_files)
+  set(graspctl_dir ${PROJECT_BINARY_DIR}/src/cli)
+  install(FILES ${graspctl_dir}/graspctl.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+          COMPONENT graspd)
+  install(FILES ${graspctl_dir}/graspctl.bash RENAME graspctl
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT graspd)
+  install(FILES ${graspctl_dir}/_graspctl  # where Debian's zsh looks
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT graspd)
+endif()
+if(TARGET graspd_files)
+  install(FILES ${PROJECT_BINARY_DIR}/src/server/graspd.8
+          DESTINATION ${CMAKE_INSTALL_MANDIR}/man8 COMPONENT graspd)
+endif()
+
 # The programs look for ../share/graspd/profiles from their own place.
 install(DIRECTORY profiles/ DESTINATION share/graspd/profiles COMPONENT libgraspd)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT libgraspd)

@@ -4,7 +4,8 @@
     check_layers.py [ROOT]     ROOT: a checkout; default the one this file lies in
 
 A folder under include/graspd/ and the folder of that name under src/ are one layer. ALLOWED says what
-a layer may include besides itself. Under include/ only std, Eigen and graspd headers may appear: a
+a layer may include besides itself. A layer of PRIVATE has nothing under include/: others include its
+headers as "layer/header.hpp". Under include/ only std, Eigen and graspd headers may appear: a
 third-party header there would reach everybody who includes ours. Prints one line a finding,
 `file:line: what`, and exits with 1 if there is any.
 """
@@ -21,10 +22,12 @@ ALLOWED = {
     "planner": {"base", *STAGES},
     "dds": {"base", "planner"},
     "simulate": {"base", "collision", "planner"},
-    "cli": {"base", *STAGES, "planner", "config", "dds", "simulate"},
-    "server": {"base", *STAGES, "planner", "config", "dds"},
+    "command_line": set(),
+    "cli": {"base", *STAGES, "planner", "config", "dds", "simulate", "command_line"},
+    "server": {"base", *STAGES, "planner", "config", "dds", "command_line"},
     "examples": {"base", *STAGES, "planner", "config", "dds"},
 }
+PRIVATE = {"command_line"}
 # What fastddsgen makes of idl/graspd.idl.
 GENERATED = re.compile(r"graspd(PubSubTypes)?\.h$")
 MAX_FILE_LINES = 400
@@ -83,6 +86,9 @@ def check_includes(root, path, lines):
             yield number, f"{header} climbs out of its folder"
         elif GENERATED.search(header) and layer not in ("dds", "examples"):
             yield number, f"{layer} must not include the generated {header}"
+        elif quoted and header.split("/")[0] in PRIVATE:
+            if layer is not None and header.split("/")[0] not in ALLOWED.get(layer, set()):
+                yield number, f"{layer} must not include {header}"
         elif quoted and not GENERATED.search(header) and not lies_beside(root / path, header):
             yield number, f"{header} does not lie in {path.parent}"
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "command_line/command_tree.hpp"
 #include "output.hpp"
 #include "plan_arguments.hpp"
 
@@ -85,5 +86,12 @@ int run_export(const ExportArguments& arguments, const OutputArguments& output);
 
 /// Lists the known grippers.
 int run_grippers(const OutputArguments& output);
+
+/// Prints a script that completes graspctl's command line.
+/// @param shell  bash or zsh
+int run_completion(const command_line::CommandEntry& program, const std::string& shell);
+
+/// Prints graspctl's manual page.
+int run_man_page(const command_line::CommandEntry& program);
 
 }  // namespace graspd::cli

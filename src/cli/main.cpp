@@ -20,6 +20,7 @@ struct Arguments {
     std::string units;
     std::string config_file;
     std::string method;  ///< of `concavity`; empty: as configured
+    std::string shell;   ///< of `completion`
 };
 
 const std::vector<std::string> kMethods(graspd::kConcavityMethods.begin(),
@@ -195,6 +196,19 @@ void add_doctor(CLI::App& app, Arguments& to, std::function<int()>& run) {
     });
 }
 
+/// What is written from the description of the other subcommands. `app` outlives `run`.
+void add_shell(CLI::App& app, Arguments& to, std::function<int()>& run) {
+    const auto tree = [&] { return graspd::command_line::read_command_tree(app, "graspctl"); };
+    auto* completion = app.add_subcommand("completion", "print a script that completes graspctl");
+    completion->add_option("SHELL", to.shell, "for which shell")
+        ->required()
+        ->check(CLI::IsMember({"bash", "zsh"}));
+    completion->callback(
+        [&, tree] { run = [&, tree] { return run_completion(tree(), to.shell); }; });
+    auto* man_page = app.add_subcommand("man-page", "print the manual page")->group("");
+    man_page->callback([&, tree] { run = [tree] { return run_man_page(tree()); }; });
+}
+
 /// Adds the subcommands; each sets `run` to what it stands for.
 void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* plan = app.add_subcommand("plan", "plan grasps in this process");
@@ -222,6 +236,7 @@ void add_commands(CLI::App& app, Arguments& to, std::function<int()>& run) {
     auto* grippers = app.add_subcommand("grippers", "list the known grippers");
     add_format(*grippers, to);
     grippers->callback([&] { run = [&] { return run_grippers(to.output); }; });
+    add_shell(app, to, run);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "daemon_man_page.hpp"
 #include "graspd/config/load_config.hpp"
 #include "graspd/config/version.hpp"
 
@@ -39,6 +40,8 @@ std::variant<DaemonArguments, int> parse_daemon_arguments(int argc, const char* 
     app.add_flag("--print-config", to.print_config, "print the settings in force and leave");
     app.add_flag("--supervise", to.supervise,
                  "run the participant as a child and start it again when it crashes");
+    bool man_page = false;
+    app.add_flag("--man-page", man_page, "print the manual page")->group("");
     try {
         std::ranges::reverse(words);  // as CLI11 wants them
         app.parse(std::move(words));
@@ -46,6 +49,10 @@ std::variant<DaemonArguments, int> parse_daemon_arguments(int argc, const char* 
         const bool asked = error.get_exit_code() == 0;  // --help or --version
         app.exit(error, std::cout, std::cerr);
         return asked ? 0 : 2;
+    }
+    if (man_page) {
+        std::cout << daemon_man_page(command_line::read_command_tree(app, "graspd")) << std::flush;
+        return std::cout ? 0 : 1;
     }
     return to;
 }

@@ -66,6 +66,13 @@ class Layers(unittest.TestCase):
         self.assert_only({"src/mesh/own.hpp": "", "src/grasp/a.cpp": '#include "../mesh/own.hpp"\n'},
                          "climbs out")
 
+    def test_a_layer_without_public_headers(self):
+        files = {"src/command_line/tree.hpp": "",
+                 "src/cli/a.cpp": '#include "command_line/tree.hpp"\n'}
+        self.assert_only(files)
+        self.assert_only({**files, "src/mesh/b.cpp": '#include "command_line/tree.hpp"\n'},
+                         "src/mesh/b.cpp:1: mesh must not include command_line/tree.hpp")
+
     def test_generated_types_outside_dds(self):
         self.assert_only({"src/server/a.cpp": '#include "graspdPubSubTypes.h"\n'},
                          "server must not include the generated")

@@ -48,7 +48,15 @@ env -i "$prefix/bin/graspctl" grippers >"$work/grippers"
 grep -q only_installed "$work/grippers" || { cat "$work/grippers"; fail "graspctl grippers"; }
 env -i "$prefix/bin/graspctl" --version
 
+echo "-- manual page and completion are there, and bash can use it"
+grep -q '^.TH GRASPCTL 1 ' "$prefix/share/man/man1/graspctl.1" || fail "graspctl.1"
+grep -q '^#compdef graspctl' "$prefix/share/zsh/vendor-completions/_graspctl" || fail "_graspctl"
+offered=$(bash -c '. "$1/share/bash-completion/completions/graspctl"
+    COMP_WORDS=(graspctl pl) COMP_CWORD=1; _graspctl; echo "${COMPREPLY[@]}"' bash "$prefix")
+[ "$offered" = plan ] || fail "completion of pl: '$offered'"
+
 if [ -x "$prefix/bin/graspd" ]; then
+    grep -q '^.TH GRASPD 8 ' "$prefix/share/man/man8/graspd.8" || fail "graspd.8"
     echo "-- the installed daemon starts far enough to print its version and settings"
     env -i "$prefix/bin/graspd" --version
     env -i "$prefix/bin/graspd" --print-config >/dev/null

@@ -15,6 +15,10 @@ echo "-- installed $(($(dpkg-query -W | wc -l) - before)) packages, $(du -shx --
 systemd_unit=$(find /usr/lib/systemd /lib/systemd -name graspd.service | head -n 1)
 grep -q 'ExecStart=/usr/bin/graspd' "$systemd_unit" || fail "unit"
 
+for file in man/man1/graspctl.1 man/man8/graspd.8 bash-completion/completions/graspctl; do
+    [ -s "/usr/share/$file" ] || fail "$file"
+done
+
 echo "-- a plan in the process"
 graspctl plan /check/stacking_cup.ply --top 1
 
