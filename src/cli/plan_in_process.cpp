@@ -7,6 +7,7 @@
 #include "graspd/config/version.hpp"
 #include "plan_scene.hpp"
 #include "planner_settings.hpp"
+#include "progress.hpp"
 
 namespace graspd::cli {
 namespace {
@@ -44,6 +45,7 @@ Result<ProcessPlan> plan_in_process(const PlanArguments& arguments, const std::s
     const auto start = Clock::now();
     const std::chrono::duration<double> budget(request.value().options.time_budget_s);
     const StopQuery stop = [&] { return Clock::now() - start >= budget; };
+    const Progress shown(progress_on_standard_error(), "planning", budget.count());
     auto planned = plan_object(arguments, std::move(request).value(), config.value(), stop, trace);
     if (!planned.ok()) return planned.error();
     PlanReply& reply = planned.value().reply;

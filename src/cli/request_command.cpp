@@ -9,6 +9,7 @@
 #include "graspd/config/profile_directory.hpp"
 #include "graspd/config/version.hpp"
 #include "graspd/dds/planner_client.hpp"
+#include "progress.hpp"
 
 namespace graspd::cli {
 namespace {
@@ -35,6 +36,8 @@ Result<PlanReply> ask(const PlanRequest& request, const DdsSettings& settings,
                       const DdsArguments& arguments, milliseconds timeout) {
     auto client = PlannerClient::open(settings, unique_client_id());
     if (!client.ok()) return client.error();
+    const double timeout_s = std::chrono::duration<double>(timeout).count();
+    Progress shown(progress_on_standard_error(), "looking for a planner", timeout_s);
     // A planner that is being started again is worth as many attempts as one that is silent.
     const std::int64_t attempts = std::int64_t{arguments.retries} + 1;
     const milliseconds patience = std::min(std::min(timeout, kDiscovery) * attempts, kDiscovery);
@@ -43,6 +46,7 @@ Result<PlanReply> ask(const PlanRequest& request, const DdsSettings& settings,
                                                       std::to_string(settings.domain) + " within " +
                                                       std::to_string(patience.count()) + " ms"};
     }
+    shown.next("waiting for the reply");
     return client.value()->request(request, timeout, arguments.retries);
 }
 
