@@ -101,8 +101,10 @@ void read_source(JsonMembers& in, GraspSource& to) {
 }
 
 void read_tolerance(JsonMembers& in, std::optional<PoseTolerance>& to) {
-    if (!in.has("tolerance") || in.find("tolerance")->is_null()) return;
-    JsonMembers tolerance(*in.find("tolerance"), in.path_of("tolerance"));
+    if (!in.has("tolerance")) return;  // older files lack it
+    const Json* node = in.find("tolerance");
+    if (node == nullptr || node->is_null()) return;
+    JsonMembers tolerance(*node, in.path_of("tolerance"));
     PoseTolerance read;
     tolerance.number("shift", read.shift_m);
     tolerance.number("turn", read.turn_rad);

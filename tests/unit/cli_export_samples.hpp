@@ -29,7 +29,7 @@ inline ExportHand sample_hand() {
     hand.gripper = sample_gripper();
     hand.moveit.gripper = "hand";
     hand.moveit.parent_link = "wrist";
-    hand.moveit.X_HP.linear() = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+    hand.moveit.X_HP.linear() = Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix();
     hand.moveit.X_HP.translation().z() = -0.02;
     for (const char* name : {"left_finger", "right_finger"}) {
         hand.moveit.joints.push_back({name, true, {{0.0, 0.0}, {0.08, 0.04}}});
@@ -41,10 +41,10 @@ inline ExportHand sample_hand() {
 /// Hz = Gz = -z, Hx = Hy x Hz = y.
 inline Grasp grasp_from_above() {
     Grasp grasp;
-    grasp.X_FG.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
-    grasp.X_FG.translation() = {0.1, 0.2, 0.3};
+    grasp.X_FG.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal().toDenseMatrix();
+    grasp.X_FG.translation() = Eigen::Vector3d(0.1, 0.2, 0.3);
     grasp.X_FH.linear() << 0, 1, 0, 1, 0, 0, 0, 0, -1;
-    grasp.X_FH.translation() = {0.1, 0.2, 0.44};
+    grasp.X_FH.translation() = Eigen::Vector3d(0.1, 0.2, 0.44);
     grasp.width_m = 0.02;
     grasp.open_width_m = 0.05;
     grasp.approach = {-Eigen::Vector3d::UnitZ(), 0.1};
@@ -64,7 +64,7 @@ inline Grasp crooked_grasp() {
     Grasp grasp = grasp_from_above();
     const Eigen::Quaterniond turn(0.1, -0.7, 0.3, 0.4);
     grasp.X_FG = Eigen::Isometry3d(turn.normalized());
-    grasp.X_FG.translation() = {0.1 + 0.2, -1.0 / 3.0, 1e-7};
+    grasp.X_FG.translation() = Eigen::Vector3d(0.1 + 0.2, -1.0 / 3.0, 1e-7);
     grasp.X_FH = grasp.X_FG * grasp_in_hand(sample_gripper(), grasp.width_m).inverse();
     grasp.approach.direction_F = grasp.X_FG.linear().col(2);
     grasp.tolerance.reset();

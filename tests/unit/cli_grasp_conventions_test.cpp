@@ -33,7 +33,7 @@ Eigen::Isometry3d drawn_pose(std::mt19937& random) {
     std::normal_distribution<double> normal;
     const Eigen::Quaterniond turn(normal(random), normal(random), normal(random), normal(random));
     Eigen::Isometry3d pose(turn.normalized());
-    pose.translation() = {normal(random), normal(random), normal(random)};
+    pose.translation() = Eigen::Vector3d(normal(random), normal(random), normal(random));
     return pose;
 }
 
@@ -92,7 +92,7 @@ TEST(GraspConventions, LinkOfAHandThatClosesAlongItsY) {
     Gripper gripper = linkage_gripper();
     gripper.closing_yaw_rad = std::numbers::pi / 2.0;
     Eigen::Isometry3d X_HL = Eigen::Isometry3d::Identity();
-    X_HL.linear() = Eigen::Vector3d(-1, -1, 1).asDiagonal();
+    X_HL.linear() = Eigen::Vector3d(-1, -1, 1).asDiagonal().toDenseMatrix();
     X_HL.translation().z() = -0.02;
     const Eigen::Matrix4d by_hand = matrix({0, -1, 0, 0.1,   //
                                             -1, 0, 0, 0.2,   //
