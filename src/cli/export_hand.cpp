@@ -44,12 +44,12 @@ Result<std::vector<ExportHand>> find_hands(const GraspFile& file, const path& gr
         const auto same = [&](const ExportHand& hand) { return hand.gripper.name == name; };
         if (std::ranges::any_of(hands, same)) continue;
         // A name from a file must not be taken for a path.
-        auto hand = is_file(name) ? Result<ExportHand>(PlanError{PlanErrorCode::kUnknownGripper,
-                                                                 "it is no profile's name"})
-                                  : find_hand(name, grippers);
+        const PlanError unknown = {PlanErrorCode::kUnknownGripper,
+                                   "gripper = " + name + " is no profile's name"};
+        auto hand = is_file(name) ? Result<ExportHand>(unknown) : find_hand(name, grippers);
         if (!hand.ok()) {
-            return PlanError{hand.error().code, gripper_member(i) + " = " + name + ": " +
-                                                    hand.error().detail +
+            return PlanError{hand.error().code, "grasps[" + std::to_string(i) +
+                                                    "]: " + hand.error().detail +
                                                     "; say which by --gripper NAME|FILE"};
         }
         hands.push_back(std::move(hand).value());

@@ -62,6 +62,10 @@ void read_hand_pose(JsonMembers& in, const Gripper* given, Grasp& to) {
         to.X_FH = to.X_FG * grasp_in_hand(*given, to.width_m).inverse();
         return;
     }
+    if (!in.has("hand_pose")) {
+        return in.fail(in.path_of("hand_pose") +
+                       " is missing; it follows from the gripper: say it by --gripper NAME|FILE");
+    }
     const Json* node = in.find("hand_pose");
     if (node == nullptr) return;
     JsonMembers pose(*node, in.path_of("hand_pose"));

@@ -77,7 +77,7 @@ TEST(ReadGrasps, WhatIsNoReplyOfOursIsRefused) {
 TEST(ReadGrasps, AMissingMemberIsNamed) {
     for (const char* key :
          {"rank", "position", "quaternion", "width", "open_width", "score", "approach", "retreat",
-          "contacts", "clearance", "hand_pose", "gripper", "source", "terms", "concavity"}) {
+          "contacts", "clearance", "gripper", "source", "terms", "concavity"}) {
         json reply = sample();
         reply["grasps"][1].erase(key);
         EXPECT_EQ(refusal(reply), "grasps[1]." + std::string(key) + " is missing");
@@ -85,6 +85,9 @@ TEST(ReadGrasps, AMissingMemberIsNamed) {
     json reply = sample();
     reply["grasps"][0]["approach"].erase("distance");
     EXPECT_EQ(refusal(reply), "grasps[0].approach.distance is missing");
+    reply = sample();
+    reply["grasps"][0].erase("hand_pose");
+    EXPECT_THAT(refusal(reply), HasSubstr("grasps[0].hand_pose is missing; it follows from the"));
 }
 
 TEST(ReadGrasps, AWrongValueIsNamedWithIt) {
@@ -126,6 +129,36 @@ TEST(ReadGrasps, AnIncompleteGripperSaysWhatItLacks) {
     ASSERT_TRUE(file.ok());
     ASSERT_FALSE(file.value().gripper.ok());
     EXPECT_EQ(file.value().gripper.error().detail, "gripper.palm_z is missing");
+}
+
+// The profile says: the hand is turned by 45 degrees on panda_link8, at the same place.
+TEST(FindHand, TakesAProfileByNameAndByFile) {
+    const std::filesystem::path grippers = GRASPD_SOURCE_DIR "/profiles/grippers";
+    for (const std::string& name :
+         {std::string("franka_hand"), (grippers / "franka_hand.yaml").string()}) {
+        const auto hand = find_hand(name, grippers);
+        ASSERT_TRUE(hand.ok()) << hand.error().detail;
+        EXPECT_EQ(hand.value().gripper.max_width_m, 0.08);
+        EXPECT_EQ(hand.value().moveit.parent_link, "panda_link8");
+        EXPECT_NEAR(hand.value().moveit.X_HP.linear()(0, 0), std::sqrt(0.5), 1e-12);
+        EXPECT_EQ(hand.value().moveit.joints.size(), 2u);
+    }
+}
+
+TEST(FindHand, AnUnknownGripperIsNamedWithItsGrasp) {
+    const std::filesystem::path grippers = GRASPD_SOURCE_DIR "/profiles/grippers";
+    GraspFile file;
+    file.grasps.resize(2);
+    file.grasps[0].gripper_name = "parallel_85";
+    for (const char* name : {"my_hand", "../franka_hand.yaml"}) {
+        file.grasps[1].gripper_name = name;
+        const auto hands = find_hands(file, grippers);
+        ASSERT_FALSE(hands.ok());
+        EXPECT_EQ(hands.error().code, PlanErrorCode::kUnknownGripper);
+        EXPECT_THAT(hands.error().detail, HasSubstr("grasps[1]: gripper = " + std::string(name)));
+    }
+    file.grasps[1].gripper_name = "parallel_85";
+    EXPECT_EQ(find_hands(file, grippers).value().size(), 1u);
 }
 
 TEST(ParsePose, ReadsMetresAndAUnitQuaternion) {
