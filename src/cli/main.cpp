@@ -136,6 +136,8 @@ void add_request(CLI::App& app, Arguments& to, std::function<int()>& run) {
     request->add_option("--timeout", to.dds.timeout_ms, "[ms] for each attempt")
         ->check(CLI::PositiveNumber);
     request->add_option("--retries", to.dds.retries, "attempts after the first");
+    request->add_flag("--markers", to.plan.markers,
+                      "have graspd draw the plan on /graspd/markers, for RViz or Foxglove");
     request->callback([&] { run = [&] { return run_request(to.plan, to.dds, to.output); }; });
 }
 #endif

@@ -155,6 +155,7 @@ Result<PlanRequest> make_request(const PlanArguments& arguments,
     request.options.friction = arguments.friction;
     request.options.sources = sources.value();
     request.options.want_suggestion = arguments.suggest;
+    request.options.want_markers = arguments.markers;
     request.options.seed = arguments.seed;
     return request;
 }

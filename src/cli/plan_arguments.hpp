@@ -30,6 +30,7 @@ struct PlanArguments {
     std::string concavity;        ///< "any_angle", "tetrahedral", or empty: as configured
     std::string sources = "all";  ///< comma-separated names
     bool suggest = false;         ///< also when there are grasps
+    bool markers = false;         ///< graspd draws the plan on /graspd/markers
     std::uint64_t seed = 0;
     std::string frame_id = "object";
     std::string request_id;  ///< empty: the file's stem

@@ -11,7 +11,8 @@ Result<WireNames> wire_names(const RosArguments& ros) {
         {"graspd/ranked_grasps", &names.ranked_grasps},
         {"graspd/cancel", &names.cancel},
         {"graspd/status", &names.status},
-        {"/diagnostics", &names.diagnostics}};
+        {"/diagnostics", &names.diagnostics},
+        {"graspd/markers", &names.markers}};
     for (const auto& [name, to] : topics) {
         const auto resolved = resolve_name(ros, name, RosNameKind::kTopic);
         if (!resolved.ok()) return resolved.error();

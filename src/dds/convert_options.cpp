@@ -20,7 +20,6 @@ void refuse_flag(bool flag, const char* name, FirstError& errors) {
 }
 
 PlanOptions read_option(const wire::PlanOptions_& in, FirstError& errors) {
-    refuse_flag(in.markers(), "markers", errors);
     refuse_flag(in.concavity_field(), "concavity_field", errors);
     check_count(in.mass().size(), 1, "options[0].mass", errors);
     check_count(in.center_of_mass().size(), 1, "options[0].center_of_mass", errors);
@@ -58,6 +57,7 @@ PlanOptions read_option(const wire::PlanOptions_& in, FirstError& errors) {
                        " has unknown bits, must be at most 7");
     }
     if (in.sources() != 0) out.sources = in.sources();
+    out.want_markers = in.markers();
     out.want_suggestion = in.suggestion();
     out.seed = in.seed();
     return out;
@@ -91,6 +91,7 @@ wire::PlanOptions_ write_options(const PlanOptions& options) {
     if (options.gravity_F) out.gravity().push_back(write_vector(*options.gravity_F));
     out.grip_force().push_back(options.grip_force_N);
     out.sources(options.sources);
+    out.markers(options.want_markers);
     out.suggestion(options.want_suggestion);
     out.seed(options.seed);
     return out;

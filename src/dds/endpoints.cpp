@@ -64,6 +64,7 @@ fast::DataWriterQos writer_qos(const Contract& contract) {
     qos.reliability().max_blocking_time = {0, kLongestBlocking_ns};
     qos.reliable_writer_qos().times.heartbeatPeriod = {0, kHeartbeat_ns};
     qos.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;
+    if (contract.sends_apart) qos.publish_mode().flow_controller_name = kSenderApart;
     if (contract.lifespan_s > 0) qos.lifespan().duration = {contract.lifespan_s, 0};
     if (contract.lease_s > 0) set_lease(contract.lease_s, qos);
     return qos;

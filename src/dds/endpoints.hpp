@@ -24,6 +24,9 @@ struct Contract {
     bool greets = false;           ///< its writer can say where it stands (reply_writer.hpp)
     bool required = false;         ///< the profile file must have it
     bool announces_hash = true;    ///< of the type; false: the layout is not the one it is of
+    /// Its writer sends on a thread that it shares with no other: megabytes that nobody waits for
+    /// must not stand before a reply.
+    bool sends_apart = false;
 };
 
 inline constexpr Contract kRequestEnds{
@@ -38,6 +41,8 @@ inline constexpr Contract kCancelEnds{.profile = "/graspd/cancel"};
 inline constexpr Contract kStatusEnds{
     .profile = "/graspd/status", .transient_local = true, .depth = 1, .lease_s = 3};
 inline constexpr Contract kDiagnosticsEnds{.profile = "/diagnostics", .depth = 10};
+inline constexpr Contract kMarkersEnds{
+    .profile = "/graspd/markers", .transient_local = true, .depth = 1, .sends_apart = true};
 inline constexpr Contract kServiceRequestEnds{.profile = "/graspd/plan_graspsRequest", .limit = 32};
 /// Of every service: ROS 2's readers of replies may come after the writer, see ReplyWriter.
 constexpr Contract service_reply_ends(const char* profile) {
@@ -52,6 +57,10 @@ inline constexpr Contract kMoveItRequestEnds{.profile = "/plan_graspsRequest", .
 inline constexpr Contract kMoveItReplyEnds = service_reply_ends("/plan_graspsReply");
 inline constexpr Contract kGraphEnds{
     .profile = "ros_discovery_info", .transient_local = true, .depth = 1};
+
+/// The sender of writers that send apart; every participant knows it, none has its thread without
+/// such a writer.
+inline constexpr const char* kSenderApart = "graspd_sender_apart";
 
 /// The contract as built in.
 fast::DataReaderQos reader_qos(const Contract& contract);

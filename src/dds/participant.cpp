@@ -11,6 +11,7 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/log/Log.hpp>
 #include <fastdds/dds/log/StdoutErrConsumer.hpp>
+#include <fastdds/rtps/flowcontrol/FlowControllerDescriptor.hpp>
 
 #include "security_properties.hpp"
 #include "type_hashes.hpp"
@@ -95,6 +96,12 @@ std::optional<PlanError> add_peers(const std::vector<std::string>& hosts,
     return std::nullopt;
 }
 
+void add_sender_apart(fast::DomainParticipantQos& qos) {
+    auto sender = std::make_shared<eprosima::fastdds::rtps::FlowControllerDescriptor>();
+    sender->name = kSenderApart;
+    qos.flow_controllers().push_back(std::move(sender));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Participant>> Participant::join(const DdsSettings& settings) {
@@ -121,6 +128,7 @@ Result<std::unique_ptr<Participant>> Participant::join(const DdsSettings& settin
         set_user_data(qos.user_data(), "enclave=" + settings.node.enclave + ";");
     }
     if (settings.security) set_security(*settings.security, qos);
+    add_sender_apart(qos);
     std::unique_ptr<Participant> out(new Participant);
     out->participant_ = factory().create_participant(settings.domain, qos);
     if (out->participant_ == nullptr) {
@@ -164,8 +172,9 @@ std::optional<PlanError> Participant::check_profiles(const std::string& file) co
         return publisher_->get_datawriter_qos_from_profile(name, qos);
     };
     for (const Contract& contract :
-         {kRequestEnds, kReplyEnds, kCancelEnds, kStatusEnds, kDiagnosticsEnds, kServiceRequestEnds,
-          kServiceReplyEnds, kMoveItRequestEnds, kMoveItReplyEnds, kGraphEnds}) {
+         {kRequestEnds, kReplyEnds, kCancelEnds, kStatusEnds, kDiagnosticsEnds, kMarkersEnds,
+          kServiceRequestEnds, kServiceReplyEnds, kMoveItRequestEnds, kMoveItReplyEnds,
+          kGraphEnds}) {
         auto error = check(contract, "data_reader", fast::DataReaderQos{}, reader);
         if (!error) error = check(contract, "data_writer", fast::DataWriterQos{}, writer);
         if (error) return error;

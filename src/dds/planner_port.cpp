@@ -14,6 +14,7 @@
 #include "guid_bytes.hpp"
 #include "moveit_service.hpp"
 #include "participant.hpp"
+#include "plan_markers.hpp"
 #include "received_request.hpp"
 #include "reply_writer.hpp"
 #include "ros_graph.hpp"
@@ -30,6 +31,8 @@ using ReplyType = GuardedType<wire::RankedGrasps_PubSubType>;
 using CancelType = GuardedType<wire::CancelRequest_PubSubType>;
 using StatusType = GuardedType<wire::PlannerStatus_PubSubType>;
 using DiagnosticsType = GuardedType<diagnostic_msgs::msg::dds_::DiagnosticArray_PubSubType>;
+
+using MarkersType = GuardedType<visualization_msgs::msg::dds_::MarkerArray_PubSubType>;
 
 constexpr const char* kServiceRequestType = "graspd_msgs::srv::dds_::PlanGrasps_Request_";
 constexpr const char* kServiceReplyType = "graspd_msgs::srv::dds_::PlanGrasps_Response_";
@@ -68,6 +71,10 @@ public:
             {names.service_reply, fast::TypeSupport(new RawType(kServiceReplyType, guard_)),
              kServiceReplyEnds});
         std::vector writers = {reply_writer, status_writer_, diagnostics_writer_, service_writer};
+        if (settings_.markers) {
+            markers_writer_ = writer<MarkersType>(names.markers, kMarkersEnds);
+            writers.push_back(markers_writer_);
+        }
         if (std::ranges::count(writers, nullptr) > 0) return refused();
         if (moveit_ && !moveit_->open_writer(*participant_, names.moveit_reply)) return refused();
         std::vector readers = {
@@ -111,6 +118,12 @@ public:
         auto diagnostics = write_diagnostics(state, full_name(settings_.node));
         const bool said = status_writer_->write(&status);
         return diagnostics_writer_->write(&diagnostics) && said;
+    }
+
+    bool write_markers(const PlanPicture& picture, const OutgoingReply& reply) override {
+        if (markers_writer_ == nullptr) return false;
+        auto markers = plan_markers(picture, reply.reply, header_of(*reply.to));
+        return markers_writer_->write(&markers);
     }
 
     void stop_listening() override {
@@ -211,12 +224,21 @@ private:
         return true;
     }
 
+    /// F, and when the object was there.
+    static std_msgs::msg::dds_::Header_ header_of(const IncomingRequest& to) {
+        std_msgs::msg::dds_::Header_ header;
+        if (const auto* request = dynamic_cast<const ReceivedRequest*>(&to)) {
+            header.stamp(request->sample.header().stamp());
+        } else if (const auto* call = dynamic_cast<const MoveItRequest*>(&to)) {
+            header.stamp(call->sample.target().header().stamp());
+        }
+        header.frame_id(to.frame_id());
+        return header;
+    }
+
     ReplyEnvelope envelope_of(const OutgoingReply& reply) const {
         ReplyEnvelope out;
-        if (const auto* request = dynamic_cast<const ReceivedRequest*>(reply.to.get())) {
-            out.header.stamp(request->sample.header().stamp());
-        }
-        out.header.frame_id(reply.to->frame_id());
+        out.header = header_of(*reply.to);
         out.request_writer = reply.to->identity().writer;
         out.client_id = reply.to->identity().client_id;
         out.request_id = reply.to->identity().request_id;
@@ -245,6 +267,7 @@ private:
     std::unique_ptr<Participant> participant_;
     fast::DataWriter* status_writer_ = nullptr;
     fast::DataWriter* diagnostics_writer_ = nullptr;
+    fast::DataWriter* markers_writer_ = nullptr;  ///< null: off
 };
 
 }  // namespace

@@ -56,6 +56,17 @@ void log_answer(const Answer& answer) {
                 request_line(answer));
 }
 
+void log_drawn(const Answer& answer, const PlanPicture& picture, double ms) {
+    spdlog::debug("event=drawn id={} faces={} of={} regions={} hands={} ms={:.1f}",
+                  log_value(answer.out.reply.request_id), picture.object_F.faces.size(),
+                  picture.all_faces, picture.regions.size(), picture.hands_F.size(), ms);
+}
+
+void log_not_drawn(const Answer& answer, const std::string& what) {
+    spdlog::warn("event=not_drawn id={} what={}", log_value(answer.out.reply.request_id),
+                 log_value(what));
+}
+
 void log_end(const ServiceCounters& counters, std::uint64_t rejected_payloads) {
     const auto count = [&](PlanStatus status) {
         return counters.answers.at(static_cast<std::size_t>(status));

@@ -30,6 +30,8 @@ void log_cancel(const CancelOrder& order, std::size_t cancelled);
 /// @param calls  open ones of a caller that has left
 void log_dropped(std::size_t calls);
 void log_answer(const Answer& answer);
+void log_drawn(const Answer& answer, const PlanPicture& picture, double ms);  ///< at level debug
+void log_not_drawn(const Answer& answer, const std::string& what);
 void log_end(const ServiceCounters& counters, std::uint64_t rejected_payloads);
 
 }  // namespace graspd::server

@@ -24,6 +24,7 @@
 #include "graspd/dds/payloads.hpp"
 #include "idle_watch.hpp"
 #include "memory_fence.hpp"
+#include "painter.hpp"
 #include "planner_service.hpp"
 #include "request_line.hpp"
 #include "request_recorder.hpp"
@@ -94,6 +95,7 @@ Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) 
                   config.planner.condition_mesh.max_faces,
                   config.planner.triangulate_cloud.limit_points, config.server.max_obstacle_faces};
     dds.keep_payloads = !config.server.record_dir.empty();
+    dds.markers = config.server.markers_when() != MarkersWhen::kNever;
     return Setup{config, std::move(dds), network.value().why, std::move(grippers).value(),
                  restarts_from_environment()};
 }
@@ -137,18 +139,46 @@ void ask_for_the_end(std::atomic<bool>& is_worn_out, std::uint64_t abandoned) {
     ::kill(::getpid(), SIGTERM);
 }
 
+/// What pictures are drawn and published with. Refers to its arguments.
+PainterParts painter_parts(const Setup& setup, const std::unique_ptr<PlannerPort>& port) {
+    return {[&](const Answer& answer) {
+                const auto start = std::chrono::steady_clock::now();
+                const ServerConfig& config = setup.config.server;
+                const auto picture =
+                    draw_plan(*answer.work.drawable, answer.out.reply.grasps, setup.config.planner,
+                              {config.markers_max_faces, config.markers_max_grasps});
+                if (!picture.ok()) return log_not_drawn(answer, picture.error().detail);
+                if (!port->write_markers(picture.value(), answer.out)) {
+                    return log_not_drawn(answer, "the middleware did not take it");
+                }
+                const std::chrono::duration<double, std::milli> taken =
+                    std::chrono::steady_clock::now() - start;
+                log_drawn(answer, picture.value(), taken.count());
+            },
+            log_not_drawn};
+}
+
+/// What the service tells of its answers, beside the log.
+struct Listeners {
+    RequestRecorder* record = nullptr;  ///< null: nothing is recorded
+    Painter& painter;
+};
+
 /// What the service plans, writes and logs with. Refers to its arguments.
 ServiceParts parts_of(const Setup& setup, const std::unique_ptr<PlannerPort>& port,
-                      RequestRecorder* record, std::atomic<bool>& is_worn_out) {
+                      const Listeners& listeners, std::atomic<bool>& is_worn_out) {
     return {setup.grippers,
             [&](const PlanRequest& request, PreparedObjectPtr& object, const StopQuery& stop) {
                 spdlog::debug("event=planning id={}", log_value(request.request_id));
                 return plan(request, object, setup.config.planner, stop);
             },
             [&](const OutgoingReply& reply) { return port->write(reply); },
-            [&port, record](const Answer& answer) {
+            [&port, listeners](const Answer& answer) {
                 log_answer(answer);
-                if (record != nullptr) record->answered(answer, port->payload_of(answer.out));
+                listeners.painter.answered(answer);
+                if (listeners.record != nullptr) {
+                    listeners.record->answered(answer, port->payload_of(answer.out));
+                }
             },
             [&] { ask_for_the_end(is_worn_out, setup.config.server.abandoned_plans); }};
 }
@@ -160,7 +190,9 @@ int serve(const Setup& setup, const sigset_t& signals) {
     RequestRecorder* const record = recorder.value().get();
     std::unique_ptr<PlannerPort> port;
     std::atomic<bool> is_worn_out{false};
-    PlannerService service(setup.config.server, parts_of(setup, port, record, is_worn_out));
+    Painter painter(painter_parts(setup, port));
+    PlannerService service(setup.config.server,
+                           parts_of(setup, port, {record, painter}, is_worn_out));
     auto opened = PlannerPort::open(
         setup.dds,
         [&](auto request) {
@@ -196,6 +228,7 @@ int serve(const Setup& setup, const sigset_t& signals) {
     beat.stop();
     tell(true);
     const bool ended = service.stop(kStopGrace);
+    painter.stop();
     const bool confirmed = port->wait_acknowledged(kAcknowledgeWait);
     if (!confirmed) spdlog::warn("event=unconfirmed what=\"some replies were not acknowledged\"");
     log_end(service.counters(), port->rejected_payloads());

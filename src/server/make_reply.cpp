@@ -49,6 +49,11 @@ PlanReply unknown_object(const IncomingRequest& to) {
                           " is unknown or no longer kept; send the object itself");
 }
 
+PlanReply no_markers(const IncomingRequest& to) {
+    return make_reply(to, PlanStatus::kInvalidRequest,
+                      "options[0].markers = true, but server.markers = never");
+}
+
 std::string budget_text(const IncomingRequest& request) {
     std::ostringstream text;
     text << "time_budget = " << request.time_budget_s() << " s";

@@ -22,6 +22,8 @@ PlanReply id_clash(const IncomingRequest& to);
 PlanReply unknown_object(const IncomingRequest& to);
 /// "time_budget = 0.5 s".
 std::string budget_text(const IncomingRequest& request);
+/// It asks for a picture, and the settings say never.
+PlanReply no_markers(const IncomingRequest& to);
 /// The time budget was over before planning began.
 PlanReply budget_spent(const IncomingRequest& to);
 /// The time budget is over, and the planner has not stopped.

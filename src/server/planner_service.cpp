@@ -27,6 +27,7 @@ PlannerService::PlannerService(const ServerConfig& config, ServiceParts parts)
       most_abandoned_(config.abandoned_plans),
       abandon_after_(config.abandon_after_ms),
       max_memory_bytes_(config.max_memory_bytes),
+      markers_(config.markers_when()),
       queue_(config.queue_capacity),
       outbox_(std::numeric_limits<std::size_t>::max()),
       objects_(config.object_cache_bytes),
@@ -164,6 +165,7 @@ PlanReply PlannerService::process(const IncomingRequest& request, const StopQuer
     work.convert_ms = ms_since(start);
     if (!converted.ok()) return refused(request, converted.error());
     PlanRequest problem = std::move(converted).value();
+    if (problem.options.want_markers && markers_ == MarkersWhen::kNever) return no_markers(request);
     StoredObject object = known_object(request.object_key(), problem);
     const bool sent = request.object_key().empty();
     if (!sent && !object.geometry) return unknown_object(request);
@@ -190,12 +192,26 @@ PlanReply PlannerService::plan_request(const IncomingRequest& request, PlanReque
     if (!prepared && !reply.object_key.empty()) {
         objects_.put(reply.object_key, std::move(problem.object_O), object.prepared);
     }
+    work.drawable = drawable(problem, std::move(object.prepared), reply);
     if (reply.status != PlanStatus::kPartial) return reply;
     if (reply.grasps.empty() && stop_.stop_requested()) return stopped(request);
     if (Clock::now() >= deadline_of(request)) {
         reply.message = budget_text(request) + " is over: " + reply.message;
     }
     return reply;
+}
+
+/// What a picture of the plan needs; null where none is wanted, or the object is nothing to look
+/// at.
+std::shared_ptr<const PlanSubject> PlannerService::drawable(PlanRequest& problem,
+                                                            PreparedObjectPtr object,
+                                                            const PlanReply& reply) const {
+    const bool wanted = markers_ == MarkersWhen::kAlways || problem.options.want_markers;
+    const bool planned = reply.status == PlanStatus::kOk || reply.status == PlanStatus::kNoGrasp ||
+                         reply.status == PlanStatus::kPartial;
+    if (!wanted || !planned || object == nullptr) return nullptr;
+    return std::make_shared<const PlanSubject>(
+        PlanSubject{std::move(object), problem.X_FO, std::move(problem.grippers)});
 }
 
 void PlannerService::finish(const RequestPtr& request, const PlanReply& reply, const Work& work) {
@@ -211,7 +227,11 @@ void PlannerService::finish_locked(const RequestPtr& request, const PlanReply& r
     if (!at->second.begun) alarms_.forget(at->second.alarm);
     const auto answered = cache_.complete(request, reply);
     counters_.repeated += answered.size() - 1;
-    for (const auto& [to, attempt] : answered) send_locked({to, attempt, reply}, work);
+    Work done = work;
+    for (const auto& [to, attempt] : answered) {
+        send_locked({to, attempt, reply}, done);
+        done.drawable = nullptr;  // once, however many retries are answered
+    }
     open_.erase(request);
     changed_.notify_all();
 }

@@ -15,6 +15,7 @@
 #include "alarm_clock.hpp"
 #include "bounded_queue.hpp"
 #include "graspd/dds/planner_port.hpp"
+#include "graspd/planner/draw_plan.hpp"
 #include "graspd/planner/planner.hpp"
 #include "latency_window.hpp"
 #include "object_store.hpp"
@@ -23,13 +24,14 @@
 
 namespace graspd::server {
 
-/// What the worker did for a request, for the log.
+/// What the worker did for a request, for whoever is told of its answer.
 struct Work {
     std::size_t points = 0;   ///< vertices or cloud points of the object
     double queue_ms = 0.0;    ///< [ms] from receipt until a worker took it
     double convert_ms = 0.0;  ///< [ms] checking and converting
     double plan_ms = 0.0;     ///< [ms] in the planner
     std::shared_ptr<const ObjectGeometry> named_object = {};  ///< of a request with an object_key
+    std::shared_ptr<const PlanSubject> drawable = {};  ///< null: this plan is not to be drawn
 };
 
 /// A reply on its way out, or just written.
@@ -145,6 +147,8 @@ private:
     PlanReply process(const IncomingRequest& request, const StopQuery& stop_requested, Work& work);
     PlanReply plan_request(const IncomingRequest& request, PlanRequest problem, StoredObject object,
                            const StopQuery& stop_requested, Work& work);
+    std::shared_ptr<const PlanSubject> drawable(PlanRequest& problem, PreparedObjectPtr object,
+                                                const PlanReply& reply) const;
     StoredObject known_object(const std::string& key, const PlanRequest& problem);
     bool write(const OutgoingReply& reply) const noexcept;
     void receive(const RequestPtr& request);
@@ -157,6 +161,7 @@ private:
     const std::uint32_t most_abandoned_;
     const std::chrono::milliseconds abandon_after_;
     const std::uint64_t max_memory_bytes_;
+    const MarkersWhen markers_;
     BoundedQueue<RequestPtr> queue_;
     BoundedQueue<Answer> outbox_;
     ObjectStore objects_;

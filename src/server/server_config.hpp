@@ -9,8 +9,13 @@
 
 namespace graspd::server {
 
+/// When the picture of a plan is published.
+enum class MarkersWhen : std::uint8_t { kNever, kOnRequest, kAlways };
+
 /// How the daemon takes requests; group `server` of planner.yaml.
 struct ServerConfig {
+    static constexpr std::array<std::string_view, 3> kMarkers = {"never", "on_request", "always"};
+
     std::uint32_t workers = 2;                     ///< threads that plan
     std::uint32_t queue_capacity = 16;             ///< waiting requests; more are OVERLOADED
     std::uint32_t reply_cache_entries = 1024;      ///< replies kept for retries
@@ -27,6 +32,14 @@ struct ServerConfig {
     std::string record_dir;                     ///< requests are written there; empty: nowhere
     std::uint32_t record_max_requests = 1000;   ///< of them that are kept
     std::uint64_t record_max_bytes = 1u << 30;  ///< [bytes] that those may take
+
+    /// When a plan is drawn on the topic markers. never: there is no such topic, and a request that
+    /// asks for it is refused.
+    std::string markers = "on_request";
+    /// Of the object, as many points of regions, as many faces of all hands. The largest picture
+    /// (216 bytes each) is far below what a DDS sample may hold.
+    std::uint32_t markers_max_faces = 20000;
+    std::uint32_t markers_max_grasps = 10;  ///< whose hands are drawn
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
@@ -47,6 +60,13 @@ struct ServerConfig {
         visit("record_dir", self.record_dir);
         visit("record_max_requests", self.record_max_requests, 1u, 1000000u);
         visit("record_max_bytes", self.record_max_bytes, std::uint64_t{1} << 16, kTerabyte);
+        visit("markers", self.markers, Choices(kMarkers));
+        visit("markers_max_faces", self.markers_max_faces, 100u, 200000u);
+        visit("markers_max_grasps", self.markers_max_grasps, 1u, 100u);
+    }
+    MarkersWhen markers_when() const {
+        if (markers == kMarkers[0]) return MarkersWhen::kNever;
+        return markers == kMarkers[2] ? MarkersWhen::kAlways : MarkersWhen::kOnRequest;
     }
 };
 

@@ -53,7 +53,8 @@ std::unique_ptr<OutgoingReply> no_answer(const SharedRequest&) {
     return nullptr;
 }
 
-// Readers: requests, cancellations, service calls. Writers: replies, status, diagnostics, service.
+// Readers: requests, cancellations, service calls. Writers: replies, status, diagnostics, markers,
+// service.
 TEST(RosGraph, AnnouncesTheNodeWithItsEndpoints) {
     StubPlanner planner(no_answer, node_settings(GidBytes::k16));
     RawClient tool(graph_topics());
@@ -66,7 +67,7 @@ TEST(RosGraph, AnnouncesTheNodeWithItsEndpoints) {
     EXPECT_EQ(node.node_name(), "planner");
     EXPECT_EQ(node.node_namespace(), "/cell1");
     EXPECT_THAT(node.reader_gid_seq(), SizeIs(3));
-    EXPECT_THAT(node.writer_gid_seq(), SizeIs(4));
+    EXPECT_THAT(node.writer_gid_seq(), SizeIs(5));
     for (const auto& gid : node.writer_gid_seq()) {
         EXPECT_TRUE(std::equal(gid.data().begin(), gid.data().begin() + 12,
                                info.gid().data().begin()));  // of this participant
@@ -74,6 +75,19 @@ TEST(RosGraph, AnnouncesTheNodeWithItsEndpoints) {
     }
     for (const auto& gid : node.reader_gid_seq()) EXPECT_EQ(gid.data()[15], 0x04);
     EXPECT_EQ(info.gid().data()[15], 0xc1);  // RTPS: a participant
+}
+
+TEST(RosGraph, LeavesOutMarkersThatAreOff) {
+    DdsSettings settings = node_settings(GidBytes::k16);
+    settings.markers = false;
+    StubPlanner planner(no_answer, settings);
+    RawClient tool(graph_topics());
+    const auto seen = tool.wait_for(1);
+    ASSERT_THAT(seen, SizeIs(1));
+    const auto info = parsed<now::ParticipantEntitiesInfo_>(seen[0], kType);
+    ASSERT_THAT(info.node_entities_info_seq(), SizeIs(1));
+    EXPECT_THAT(info.node_entities_info_seq()[0].writer_gid_seq(), SizeIs(4));
+    EXPECT_FALSE(planner.port().write_markers({}, {}));
 }
 
 // One reader and one writer more.
@@ -87,7 +101,7 @@ TEST(RosGraph, AnnouncesTheServiceForMoveIt) {
     const auto info = parsed<now::ParticipantEntitiesInfo_>(seen[0], kType);
     ASSERT_THAT(info.node_entities_info_seq(), SizeIs(1));
     EXPECT_THAT(info.node_entities_info_seq()[0].reader_gid_seq(), SizeIs(4));
-    EXPECT_THAT(info.node_entities_info_seq()[0].writer_gid_seq(), SizeIs(5));
+    EXPECT_THAT(info.node_entities_info_seq()[0].writer_gid_seq(), SizeIs(6));
 }
 
 TEST(RosGraph, SpeaksTheOldLayoutWhenTold) {
@@ -202,6 +216,8 @@ TEST(RosGraph, ParticipantAndEndpointsCarryWhatToolsRead) {
                                        hash("graspd_msgs::msg::dds_::GraspRequest_")));
         EXPECT_TRUE(discovery.wait_for("rt/graspd/ranked_grasps" +
                                        hash("graspd_msgs::msg::dds_::RankedGrasps_")));
+        EXPECT_TRUE(discovery.wait_for("rt/graspd/markers" +
+                                       hash("visualization_msgs::msg::dds_::MarkerArray_")));
         EXPECT_TRUE(discovery.wait_for("rr/graspd/plan_graspsReply" +
                                        hash("graspd_msgs::srv::dds_::PlanGrasps_Response_")));
         EXPECT_TRUE(discovery.wait_for("rq/plan_graspsRequest" +

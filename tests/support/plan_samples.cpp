@@ -106,6 +106,7 @@ void expect_same(const PlanOptions& a, const PlanOptions& b) {
     EXPECT_EQ(a.grip_force_N, b.grip_force_N);
     EXPECT_EQ(a.sources, b.sources);
     EXPECT_EQ(a.want_suggestion, b.want_suggestion);
+    EXPECT_EQ(a.want_markers, b.want_markers);
     EXPECT_EQ(a.seed, b.seed);
 }
 
@@ -233,6 +234,7 @@ PlanRequest full_request() {
                        .grip_force_N = 35.0,
                        .sources = kBoundary | kWholeObject,
                        .want_suggestion = true,
+                       .want_markers = true,
                        .seed = 0xfedcba9876543210u};
     return request;
 }

@@ -38,6 +38,7 @@ TEST_F(PlanArgumentsTest, BecomeARequestInMetresAndSeconds) {
     arguments_.sources = "boundary,whole_object";
     arguments_.seed = 9;
     arguments_.suggest = true;
+    arguments_.markers = true;
     arguments_.frame_id = "camera";
     const auto request = make_request(arguments_, kProfiles);
     ASSERT_TRUE(request.ok()) << request.error().detail;
@@ -51,6 +52,7 @@ TEST_F(PlanArgumentsTest, BecomeARequestInMetresAndSeconds) {
     EXPECT_EQ(request.value().options.sources, kBoundary | kWholeObject);
     EXPECT_EQ(request.value().options.seed, 9u);
     EXPECT_TRUE(request.value().options.want_suggestion);
+    EXPECT_TRUE(request.value().options.want_markers);
     EXPECT_EQ(request.value().frame_id, "camera");
     EXPECT_FALSE(request.value().support_plane.has_value());
 }

@@ -5,6 +5,8 @@
 
 #include <fstream>
 
+#include "graspd/config/wire_names.hpp"
+
 namespace graspd {
 namespace {
 
@@ -135,6 +137,14 @@ TEST(TakeRosArguments, ALevelForThisLoggerGoesBeforeOneForAll) {
         "warning");
     EXPECT_EQ(level({"-r", "__ns:=/a/b", "--log-level", "a:=debug"}), "debug");
     EXPECT_FALSE(level({"-r", "__ns:=/a/b", "--log-level", "graspd:=debug"}));
+}
+
+TEST(WireNames, FollowNamespaceAndRules) {
+    EXPECT_EQ(wire_names({}).value().markers, WireNames{}.markers);
+    const auto names = wire_names(ros({"-r", "__ns:=/cell1", "-r", "graspd/markers:=/pictures"}));
+    ASSERT_TRUE(names.ok());
+    EXPECT_EQ(names.value().markers, "rt/pictures");
+    EXPECT_EQ(names.value().status, "rt/cell1/graspd/status");
 }
 
 TEST(ResolveName, NodeAndNamespaceStandInFullNames) {

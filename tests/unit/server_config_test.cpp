@@ -46,7 +46,21 @@ TEST(DaemonConfig, ABadValueIsNamedWithItsKeyAndRange) {
                 AllOf(HasSubstr("server.workers"), HasSubstr("many"), HasSubstr("[1, 256]")));
     EXPECT_THAT(error_of("server:\n  threads: 3\n"), HasSubstr("server.threads"));
     EXPECT_EQ(error_of("server:\n  object_cache_bytes: 0\n"), "none");
+    EXPECT_THAT(error_of("server:\n  markers: sometimes\n"),
+                AllOf(HasSubstr("server.markers"), HasSubstr("sometimes"),
+                      HasSubstr("never, on_request, always")));
+    EXPECT_THAT(error_of("server:\n  markers_max_faces: 4000000\n"),
+                HasSubstr("server.markers_max_faces = 4000000 is outside [100, 200000]"));
     std::filesystem::remove(file);
+}
+
+TEST(DaemonConfig, MarkersAreServedOnRequestUnlessTold) {
+    ServerConfig config;
+    EXPECT_EQ(config.markers_when(), MarkersWhen::kOnRequest);
+    config.markers = "never";
+    EXPECT_EQ(config.markers_when(), MarkersWhen::kNever);
+    config.markers = "always";
+    EXPECT_EQ(config.markers_when(), MarkersWhen::kAlways);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ struct WireNames {
     std::string cancel = "rt/graspd/cancel";
     std::string status = "rt/graspd/status";
     std::string diagnostics = "rt/diagnostics";
+    std::string markers = "rt/graspd/markers";
     std::string service_request = "rq/graspd/plan_graspsRequest";
     std::string service_reply = "rr/graspd/plan_graspsReply";
     std::string moveit_request = "rq/plan_graspsRequest";

@@ -71,6 +71,7 @@ struct DdsSettings {
                                                    ///< than who sent it
     RequestLimits limits;
     bool keep_payloads = false;  ///< IncomingRequest::payload() has the bytes
+    bool markers = true;         ///< a planner has the topic for pictures
 };
 
 }  // namespace graspd

@@ -12,6 +12,7 @@
 #include "graspd/base/result.hpp"
 #include "graspd/dds/dds_settings.hpp"
 #include "graspd/dds/planner_state.hpp"
+#include "graspd/planner/draw_plan.hpp"
 #include "graspd/planner/plan_types.hpp"
 
 namespace graspd {
@@ -117,6 +118,10 @@ public:
     /// Writes what the planner says of itself to the topics status and diagnostics, and asserts
     /// that it is alive. To be called from one thread. @return false: not written
     virtual bool write_state(PlannerState state) = 0;
+    /// Writes the picture of a plan to the topic markers, in place of the one before; `reply` is
+    /// what was answered. May be called beside write() and write_state(), from one thread.
+    /// @return false: not written, or DdsSettings::markers is off
+    virtual bool write_markers(const PlanPicture& picture, const OutgoingReply& reply) = 0;
     /// No call of a handler is under way or follows once this has returned. Not for the handler.
     virtual void stop_listening() = 0;
     /// Waits until every matched reader has confirmed every reply. @return false: not in that time

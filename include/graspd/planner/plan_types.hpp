@@ -78,6 +78,7 @@ struct PlanOptions {
     double grip_force_N = 20.0;                ///< [N] per finger, > 0
     std::uint8_t sources = kAllSources;        ///< bits of GraspSource
     bool want_suggestion = false;              ///< say what would help, also when there are grasps
+    bool want_markers = false;                 ///< the daemon draws the plan; plan() does not care
     std::uint64_t seed = 0;                    ///< of every random draw
 };
 
