@@ -49,19 +49,20 @@ if(TARGET graspd_simulate)
           COMPONENT libgraspd-dev)
 endif()
 
-# Manual pages and completion, where the build could run the programs (src/cli, src/server).
+# Manual pages and completion, where the build could run the programs (src/cli, src/server). Optional: a build
+# of the two programs alone has not written them.
 if(TARGET graspctl_files)
   set(graspctl_dir ${PROJECT_BINARY_DIR}/src/cli)
   install(FILES ${graspctl_dir}/graspctl.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
-          COMPONENT graspd)
+          COMPONENT graspd OPTIONAL)
   install(FILES ${graspctl_dir}/graspctl.bash RENAME graspctl
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT graspd)
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT graspd OPTIONAL)
   install(FILES ${graspctl_dir}/_graspctl  # where Debian's zsh looks
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT graspd)
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT graspd OPTIONAL)
 endif()
 if(TARGET graspd_files)
   install(FILES ${PROJECT_BINARY_DIR}/src/server/graspd.8
-          DESTINATION ${CMAKE_INSTALL_MANDIR}/man8 COMPONENT graspd)
+          DESTINATION ${CMAKE_INSTALL_MANDIR}/man8 COMPONENT graspd OPTIONAL)
 endif()
 
 # The programs look for ../share/graspd/profiles from their own place.
