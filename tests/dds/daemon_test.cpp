@@ -214,7 +214,7 @@ TEST(DaemonProcess, OutOfMemoryCostsItsRequestAlone) {
 #endif
     const std::uint32_t domain = daemon_domain(10);
     const test::TemporaryFile fence(
-        "_fence.yaml", "server:\n  workers: 1\n  max_address_space_bytes: 700000000\n");
+        "_fence.yaml", "server:\n  workers: 1\n  max_address_space_bytes: 800000000\n");
     Daemon daemon(domain, {"--config", fence.path()});
     auto client = PlannerClient::open(client_settings(domain), "hungry client");
     ASSERT_TRUE(client.ok()) << client.error().detail;
