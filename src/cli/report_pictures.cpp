@@ -1,7 +1,6 @@
 #include "report_pictures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "graspd/mesh/principal_frame.hpp"
@@ -16,13 +15,9 @@ constexpr std::array<float, 3> kSalient = {0.85F, 0.13F, 0.16F};
 constexpr std::array<float, 3> kAround = {0.95F, 0.71F, 0.20F};
 
 std::vector<double> shares_of(const TracedObject& object) {
-    double largest_m = 0.0;
-    for (const double value_m : object.concavity_m) {
-        if (std::isfinite(value_m)) largest_m = std::max(largest_m, value_m);
-    }
     std::vector<double> shares;
     for (const double value_m : object.concavity_m) {
-        shares.push_back(largest_m > 0.0 ? value_m / largest_m : 0.0);
+        shares.push_back(object.deepest_m > 0.0 ? value_m / object.deepest_m : 0.0);
     }
     return shares;
 }

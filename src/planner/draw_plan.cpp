@@ -1,7 +1,6 @@
 #include "graspd/planner/draw_plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "find_concavities.hpp"
 #include "graspd/base/hull_points.hpp"
@@ -13,14 +12,6 @@ namespace graspd {
 namespace {
 
 using namespace planner_detail;
-
-double deepest_of(const std::vector<double>& concavity_m) {
-    double deepest_m = 0.0;
-    for (const double value_m : concavity_m) {
-        if (std::isfinite(value_m)) deepest_m = std::max(deepest_m, value_m);
-    }
-    return deepest_m;
-}
 
 std::optional<PlanError> draw_object(const PlanSubject& subject, const PictureLimits& limits,
                                      PlanPicture& picture) {
@@ -43,7 +34,7 @@ std::optional<PlanError> draw_regions(const PlanSubject& subject, const Gripper&
     if (!seen) return seen.error();
     picture.spacing_m = seen.value().surface.spacing_m;
     picture.deepest_m = std::max(
-        deepest_of(subject.object->field.value_m),
+        subject.object->field.largest_m,
         config.extract_concave_areas.min_depth_finger_thicknesses * gripper.finger_thickness_m);
     std::size_t count = 0;
     for (const Concavity& region : seen.value().concavities) count += region.salient.size();

@@ -24,6 +24,7 @@ namespace graspd {
 struct TracedObject {
     TriangleMesh mesh_P;              ///< [m] conditioned
     std::vector<double> concavity_m;  ///< [m] per vertex; +inf enclosed, NaN unreferenced
+    double deepest_m = 0.0;           ///< [m] the greatest finite one
     std::vector<ConcavityFlag> flag;  ///< per vertex
     std::vector<std::uint32_t> hull;  ///< rising indices of the vertices that span the hull
     double volume_m3 = 0.0;           ///< [m^3]
