@@ -118,6 +118,9 @@ diagnostic_msgs::msg::dds_::DiagnosticArray_ write_diagnostics(const PlannerStat
     add(status, "rejected_payloads", std::to_string(state.rejected_payloads));
     add(status, "restarts", std::to_string(state.restarts));
     add(status, "abandoned_plans", std::to_string(state.abandoned_plans));
+    add(status, "peers", std::to_string(state.peers));
+    add(status, "held_requests", std::to_string(state.held_requests));
+    add(status, "taken_over", std::to_string(state.taken_over));
     add(status, "grippers", joined(state.grippers));
     return out;
 }

@@ -9,7 +9,7 @@ constexpr std::uint32_t kHeartbeatResponse_ns = kMillisecond_ns;
 constexpr std::uint32_t kLongestBlocking_ns = 200 * kMillisecond_ns;  // a slow reader's cost
 
 /// Fast DDS sends no heartbeat on demand without a lease; nothing hangs on its length.
-constexpr std::int32_t kGreetingLease_s = 86400;
+constexpr std::int32_t kGreetingLease_ms = 86400000;
 
 /// What readers and writers have in common.
 template <class Qos>
@@ -31,10 +31,15 @@ void apply(const Contract& contract, Qos& qos) {
     qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
 }
 
-void set_lease(std::int32_t lease_s, fast::DataWriterQos& qos) {
+eprosima::fastrtps::Duration_t milliseconds(std::int32_t count) {
+    return {count / 1000, static_cast<std::uint32_t>(count % 1000) * kMillisecond_ns};
+}
+
+template <class Qos>
+void set_lease(std::int32_t lease_ms, Qos& qos) {
     qos.liveliness().kind = fast::MANUAL_BY_TOPIC_LIVELINESS_QOS;
-    qos.liveliness().lease_duration = {lease_s, 0};
-    qos.liveliness().announcement_period = {lease_s / 2, 0};
+    qos.liveliness().lease_duration = milliseconds(lease_ms);
+    qos.liveliness().announcement_period = milliseconds(lease_ms / 2);
 }
 
 template <class Qos>
@@ -55,6 +60,7 @@ fast::DataReaderQos reader_qos(const Contract& contract) {
     fast::DataReaderQos qos;
     apply(contract, qos);
     qos.reliable_reader_qos().times.heartbeatResponseDelay = {0, kHeartbeatResponse_ns};
+    if (contract.watches_lease) set_lease(contract.lease_ms, qos);
     return qos;
 }
 
@@ -66,12 +72,12 @@ fast::DataWriterQos writer_qos(const Contract& contract) {
     qos.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;
     if (contract.sends_apart) qos.publish_mode().flow_controller_name = kSenderApart;
     if (contract.lifespan_s > 0) qos.lifespan().duration = {contract.lifespan_s, 0};
-    if (contract.lease_s > 0) set_lease(contract.lease_s, qos);
+    if (contract.lease_ms > 0) set_lease(contract.lease_ms, qos);
     return qos;
 }
 
 void set_greeting(const Contract& contract, fast::DataWriterQos& qos) {
-    if (contract.greets) set_lease(kGreetingLease_s, qos);
+    if (contract.greets) set_lease(kGreetingLease_ms, qos);
 }
 
 std::string broken_contract(const fast::DataReaderQos& qos, const Contract& contract) {

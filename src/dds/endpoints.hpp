@@ -20,7 +20,8 @@ struct Contract {
     std::int32_t depth = 0;        ///< samples kept; 0: all, as far as `limit` goes
     std::int32_t limit = 64;       ///< samples that a history of unlimited depth holds
     std::int32_t lifespan_s = 0;   ///< [s] after which a sample is dropped; 0: never
-    std::int32_t lease_s = 0;      ///< [s] of MANUAL_BY_TOPIC liveliness; 0: none
+    std::int32_t lease_ms = 0;     ///< [ms] of MANUAL_BY_TOPIC liveliness; 0: none
+    bool watches_lease = false;    ///< its reader is told when a writer misses the lease
     bool greets = false;           ///< its writer can say where it stands (reply_writer.hpp)
     bool required = false;         ///< the profile file must have it
     bool announces_hash = true;    ///< of the type; false: the layout is not the one it is of
@@ -39,7 +40,7 @@ inline constexpr Contract kReplyEnds{.profile = "/graspd/ranked_grasps",
                                      .required = true};
 inline constexpr Contract kCancelEnds{.profile = "/graspd/cancel"};
 inline constexpr Contract kStatusEnds{
-    .profile = "/graspd/status", .transient_local = true, .depth = 1, .lease_s = 3};
+    .profile = "/graspd/status", .transient_local = true, .depth = 1, .lease_ms = 3000};
 inline constexpr Contract kDiagnosticsEnds{.profile = "/diagnostics", .depth = 10};
 inline constexpr Contract kMarkersEnds{
     .profile = "/graspd/markers", .transient_local = true, .depth = 1, .sends_apart = true};
@@ -57,6 +58,16 @@ inline constexpr Contract kMoveItRequestEnds{.profile = "/plan_graspsRequest", .
 inline constexpr Contract kMoveItReplyEnds = service_reply_ends("/plan_graspsReply");
 inline constexpr Contract kGraphEnds{
     .profile = "ros_discovery_info", .transient_local = true, .depth = 1};
+
+// Of planners that watch each other. A dead one's requests pass on after the lease.
+inline constexpr std::int32_t kPeerLease_ms = 500;
+inline constexpr Contract kPeerStatusEnds{.profile = "graspd_peer_status",
+                                          .transient_local = true,
+                                          .limit = 1024,
+                                          .lease_ms = kPeerLease_ms,
+                                          .watches_lease = true};
+inline constexpr Contract kPeerReplyEnds{
+    .profile = "graspd_peer_replies", .limit = 1024, .announces_hash = false};
 
 /// The sender of writers that send apart; every participant knows it, none has its thread without
 /// such a writer.

@@ -29,6 +29,8 @@ public:
     double time_budget_s() const override { return PlanOptions{}.time_budget_s; }
     RequestSize size() const override { return size_; }
     bool is_call() const override { return true; }
+    std::string reply_key() const override { return reply_key_of(call); }
+    void take_over(std::chrono::steady_clock::time_point now) override { received_ = now; }
     Result<PlanRequest> convert(std::span<const Gripper> known) const override {
         return read_moveit_call(sample, identity_.request_id, known, *settings_);
     }

@@ -198,7 +198,7 @@ fast::DataReader* Participant::create_reader(const TopicOf& topic,
     if (made == nullptr) return nullptr;
     fast::DataReaderQos qos = reader_qos(topic.contract);
     subscriber_->get_datareader_qos_from_profile(topic.contract.profile, qos);
-    if (topic.contract.announces_hash) set_type_hash(qos, topic.type.get_type_name());
+    if (topic.contract.announces_hash) set_type_hash(qos, made->get_type_name());
     return subscriber_->create_datareader(made, qos, listener);
 }
 
@@ -209,7 +209,7 @@ fast::DataWriter* Participant::create_writer(const TopicOf& topic,
     fast::DataWriterQos qos = writer_qos(topic.contract);
     publisher_->get_datawriter_qos_from_profile(topic.contract.profile, qos);
     set_greeting(topic.contract, qos);
-    if (topic.contract.announces_hash) set_type_hash(qos, topic.type.get_type_name());
+    if (topic.contract.announces_hash) set_type_hash(qos, made->get_type_name());
     return publisher_->create_datawriter(made, qos, listener);
 }
 

@@ -24,7 +24,7 @@ inline constexpr const char* kParticipantProfile = "graspd_participant";
 /// A topic with the type that travels on it.
 struct TopicOf {
     std::string name;
-    fast::TypeSupport type;
+    fast::TypeSupport type;  ///< null where the participant has the topic already
     Contract contract;
 };
 

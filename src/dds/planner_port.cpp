@@ -14,6 +14,7 @@
 #include "guid_bytes.hpp"
 #include "moveit_service.hpp"
 #include "participant.hpp"
+#include "peer_watch.hpp"
 #include "plan_markers.hpp"
 #include "received_request.hpp"
 #include "reply_writer.hpp"
@@ -40,11 +41,12 @@ constexpr const char* kServiceReplyType = "graspd_msgs::srv::dds_::PlanGrasps_Re
 class DdsPlannerPort final : public PlannerPort {
 public:
     DdsPlannerPort(const DdsSettings& settings, RequestHandler request, CancelHandler cancel,
-                   GoneHandler gone)
+                   GoneHandler gone, PeerHandlers peers)
         : settings_(settings),
           handle_request_(std::move(request)),
           handle_cancel_(std::move(cancel)),
-          handle_gone_(std::move(gone)) {
+          handle_gone_(std::move(gone)),
+          peers_(std::move(peers)) {
         guard_->max_payload_bytes = settings.max_payload_bytes;
         guard_->limits = settings.limits;
         if (settings.moveit.error_codes != MoveItCodes::kOff) {
@@ -64,7 +66,9 @@ public:
         auto* reply_writer = reply_writer_.open(
             *participant_,
             {names.ranked_grasps, fast::TypeSupport(new ReplyType(guard_)), kReplyEnds});
-        status_writer_ = writer<StatusType>(names.status, kStatusEnds);
+        Contract status_ends = kStatusEnds;
+        if (settings_.watch_peers) status_ends.lease_ms = kPeerLease_ms;
+        status_writer_ = writer<StatusType>(names.status, status_ends);
         diagnostics_writer_ = writer<DiagnosticsType>(names.diagnostics, kDiagnosticsEnds);
         auto* service_writer = service_writer_.open(
             *participant_,
@@ -77,6 +81,8 @@ public:
         }
         if (std::ranges::count(writers, nullptr) > 0) return refused();
         if (moveit_ && !moveit_->open_writer(*participant_, names.moveit_reply)) return refused();
+        std::vector<fast::DataReader*> peer_readers;
+        if (settings_.watch_peers && (peer_readers = watch_peers()).empty()) return refused();
         std::vector readers = {
             reader<RequestType>(names.grasp_request, kRequestEnds, request_listener_),
             reader<CancelType>(names.cancel, kCancelEnds, cancel_listener_),
@@ -90,6 +96,7 @@ public:
             writers.push_back(&moveit_->writer().writer());
             readers.push_back(moveit_->reader());
         }
+        readers.insert(readers.end(), peer_readers.begin(), peer_readers.end());
         if (settings_.node.gid_bytes == GidBytes::kOff) return std::nullopt;
         graph_.emplace(settings_.node, readers, writers);
         return graph_->open(*participant_, guard_) ? std::nullopt : refused();
@@ -120,6 +127,9 @@ public:
         return diagnostics_writer_->write(&diagnostics) && said;
     }
 
+    void assert_alive() override { status_writer_->assert_liveliness(); }
+    GuidBytes id() const override { return bytes_of(status_writer_->guid()); }
+
     bool write_markers(const PlanPicture& picture, const OutgoingReply& reply) override {
         if (markers_writer_ == nullptr) return false;
         auto markers = plan_markers(picture, reply.reply, header_of(*reply.to));
@@ -131,6 +141,7 @@ public:
         service_listener_.stop();
         if (moveit_) moveit_->stop();
         cancel_listener_.stop();
+        peers_.stop();
     }
 
     bool wait_acknowledged(std::chrono::milliseconds timeout) override {
@@ -170,6 +181,12 @@ private:
 
     void tell_gone(const eprosima::fastrtps::rtps::GUID_t& writer) {
         if (handle_gone_) handle_gone_(bytes_of(writer));
+    }
+
+    std::vector<fast::DataReader*> watch_peers() {
+        std::vector<std::string> service_replies = {settings_.names.service_reply};
+        if (moveit_) service_replies.push_back(settings_.names.moveit_reply);
+        return peers_.open(*participant_, settings_.names, service_replies, id());
     }
 
     static std::optional<PlanError> refused() {
@@ -262,6 +279,7 @@ private:
     TakingListener cancel_listener_{[this](auto& from) { return take_cancel(from); }};
     ReplyWriter reply_writer_;
     ReplyWriter service_writer_;
+    PeerWatch peers_;
     std::unique_ptr<MoveItService> moveit_;  ///< null: off
     std::optional<RosGraph> graph_;
     std::unique_ptr<Participant> participant_;
@@ -275,9 +293,9 @@ private:
 
 Result<std::unique_ptr<PlannerPort>> PlannerPort::open(const DdsSettings& settings,
                                                        RequestHandler handler, CancelHandler cancel,
-                                                       GoneHandler gone) {
-    auto port = std::make_unique<dds::DdsPlannerPort>(settings, std::move(handler),
-                                                      std::move(cancel), std::move(gone));
+                                                       GoneHandler gone, PeerHandlers peers) {
+    auto port = std::make_unique<dds::DdsPlannerPort>(
+        settings, std::move(handler), std::move(cancel), std::move(gone), std::move(peers));
     if (auto error = port->open()) return *std::move(error);
     return std::unique_ptr<PlannerPort>(std::move(port));
 }

@@ -1,5 +1,7 @@
 #include "received_request.hpp"
 
+#include <algorithm>
+
 #include "guid_bytes.hpp"
 
 namespace graspd::dds {
@@ -7,7 +9,41 @@ namespace {
 
 using eprosima::fastrtps::rtps::GUID_t;
 
+void append(std::string& key, std::uint64_t number) {
+    for (int shift = 0; shift < 64; shift += 8) key += static_cast<char>(number >> shift & 0xff);
+}
+
 }  // namespace
+
+std::string reply_key_of(const ServiceCall& call) {
+    std::string key(1, call.related ? 'r' : 'c');
+    if (call.related) {
+        const GuidBytes caller = bytes_of(call.related->writer_guid());
+        key.append(caller.begin(), caller.end());
+        append(key, call.related->sequence_number().to64long());
+    } else {
+        append(key, call.header.client);
+        append(key, static_cast<std::uint64_t>(call.header.sequence));
+    }
+    return key;
+}
+
+std::optional<ServiceCall> answered_call(std::span<const std::uint8_t> payload,
+                                         const eprosima::fastdds::dds::SampleInfo& info) {
+    ServiceCall call;
+    if (info.related_sample_identity.writer_guid() != GUID_t::unknown()) {
+        call.related = info.related_sample_identity;
+        return call;
+    }
+    Bytes head(payload.begin(),
+               payload.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                     payload.size(), kEncapsulation_bytes + kServiceHeader_bytes)));
+    std::span<std::uint8_t> rest(head);
+    const auto header = take_service_header(rest);
+    if (!header) return std::nullopt;
+    call.header = *header;
+    return call;
+}
 
 void ReceivedRequest::complete(const eprosima::fastdds::dds::SampleInfo& info) {
     identity_.writer = bytes_of(info.sample_identity.writer_guid());

@@ -24,6 +24,14 @@ struct ServiceCall {
     ServiceHeader header;  ///< of rmw_cyclonedds; goes back before the reply's members
 };
 
+/// What the reply to a call bears. @return IncomingRequest::reply_key() of a call
+std::string reply_key_of(const ServiceCall& call);
+
+/// Which call the reply in a sample answers, whoever made it and by whichever ROS 2 vendor.
+/// @return nothing for a payload that is too short
+std::optional<ServiceCall> answered_call(std::span<const std::uint8_t> payload,
+                                         const eprosima::fastdds::dds::SampleInfo& info);
+
 /// One request that came in, by the topic or by the service.
 class ReceivedRequest final : public IncomingRequest {
 public:
@@ -37,6 +45,10 @@ public:
     std::chrono::steady_clock::time_point received() const override { return sample.received; }
     const std::string& frame_id() const override { return sample.header().frame_id(); }
     const std::string& object_key() const override { return sample.object_key(); }
+    std::string reply_key() const override {
+        return call ? reply_key_of(*call) : topic_reply_key(identity_);
+    }
+    void take_over(std::chrono::steady_clock::time_point now) override { sample.received = now; }
     std::shared_ptr<const ReceivedPayload> payload() const override { return sample.payload; }
     Result<PlanRequest> convert(std::span<const Gripper> known) const override {
         if (sample.refused) return *sample.refused;

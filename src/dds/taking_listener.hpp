@@ -22,8 +22,14 @@ public:
     /// Told of the GUID of a writer that is matched no longer.
     using WriterGone = std::function<void(const eprosima::fastrtps::rtps::GUID_t&)>;
 
-    explicit TakingListener(TakeOne take_one, WriterGone writer_gone = {})
-        : take_one_(std::move(take_one)), writer_gone_(std::move(writer_gone)) {}
+    /// Told of the GUID of a writer that has missed its lease, or asserts itself again.
+    using WriterLives = std::function<void(const eprosima::fastrtps::rtps::GUID_t&, bool lives)>;
+
+    explicit TakingListener(TakeOne take_one, WriterGone writer_gone = {},
+                            WriterLives writer_lives = {})
+        : take_one_(std::move(take_one)),
+          writer_gone_(std::move(writer_gone)),
+          writer_lives_(std::move(writer_lives)) {}
 
     void on_subscription_matched(
         eprosima::fastdds::dds::DataReader*,
@@ -40,6 +46,19 @@ public:
             }
             if (is_gone && writer_gone_) writer_gone_(guid);
         } catch (...) {  // out of memory: its calls are answered to nobody
+        }
+        leave();
+    }
+
+    void on_liveliness_changed(
+        eprosima::fastdds::dds::DataReader*,
+        const eprosima::fastdds::dds::LivelinessChangedStatus& status) override {
+        if (!writer_lives_ || status.alive_count_change == 0 || !enter()) return;
+        try {
+            eprosima::fastrtps::rtps::GUID_t guid;
+            eprosima::fastrtps::rtps::iHandle2GUID(guid, status.last_publication_handle);
+            writer_lives_(guid, status.alive_count_change > 0);
+        } catch (...) {  // out of memory
         }
         leave();
     }
@@ -87,6 +106,7 @@ private:
     std::set<eprosima::fastrtps::rtps::GUID_t> writers_;  ///< matched
     TakeOne take_one_;
     WriterGone writer_gone_;
+    WriterLives writer_lives_;
 };
 
 }  // namespace graspd::dds

@@ -1,5 +1,6 @@
 #include "daemon_log.hpp"
 
+#include <spdlog/fmt/ranges.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -48,6 +49,23 @@ void log_received(const RequestIdentity& identity) {
     if (!spdlog::should_log(spdlog::level::debug)) return;
     spdlog::debug("event=received id={} client={}", log_value(identity.request_id),
                   log_value(identity.client_id));
+}
+
+void log_taken_over(const RequestIdentity& identity) {
+    spdlog::info("event=taken_over id={} client={}", log_value(identity.request_id),
+                 log_value(identity.client_id));
+}
+
+void log_takes_part(std::size_t peers) {
+    spdlog::info("event=takes_part peers={}", peers);
+}
+
+void log_peer(const GuidBytes& peer, bool serves) {
+    spdlog::info("event=peer guid={:02x} serves={}", fmt::join(peer, ""), serves);
+}
+
+void log_handed_over(std::size_t requests) {
+    spdlog::info("event=handed_over requests={}", requests);
 }
 
 void log_answer(const Answer& answer) {

@@ -29,6 +29,14 @@ void log_received(const RequestIdentity& identity);  ///< at level debug
 void log_cancel(const CancelOrder& order, std::size_t cancelled);
 /// @param calls  open ones of a caller that has left
 void log_dropped(std::size_t calls);
+/// A request that another planner should have answered.
+void log_taken_over(const RequestIdentity& identity);
+/// This planner shares requests with so many others from now on.
+void log_takes_part(std::size_t peers);
+/// Another planner has begun or ceased to serve.
+void log_peer(const GuidBytes& peer, bool serves);
+/// @param requests  open ones that other planners answer
+void log_handed_over(std::size_t requests);
 void log_answer(const Answer& answer);
 void log_drawn(const Answer& answer, const PlanPicture& picture, double ms);  ///< at level debug
 void log_not_drawn(const Answer& answer, const std::string& what);

@@ -24,4 +24,10 @@ PlannerState describe_state(const ServiceCounters& counters, const ServerConfig&
     return state;
 }
 
+void describe_share(const ShareCounters& counters, PlannerState& state) {
+    state.peers = static_cast<std::uint32_t>(counters.peers);
+    state.held_requests = static_cast<std::uint32_t>(counters.held);
+    state.taken_over = counters.taken_over;
+}
+
 }  // namespace graspd::server

@@ -10,17 +10,11 @@
 #include "beat.hpp"
 #include "daemon_arguments.hpp"
 #include "daemon_log.hpp"
+#include "daemon_setup.hpp"
 #include "describe_state.hpp"
 #include "graspd/base/freed_memory.hpp"
-#include "graspd/config/domain_id.hpp"
 #include "graspd/config/load_config.hpp"
-#include "graspd/config/load_gripper.hpp"
-#include "graspd/config/load_moveit_hand.hpp"
-#include "graspd/config/network_profile.hpp"
-#include "graspd/config/profile_directory.hpp"
-#include "graspd/config/security.hpp"
 #include "graspd/config/version.hpp"
-#include "graspd/config/wire_names.hpp"
 #include "graspd/dds/payloads.hpp"
 #include "idle_watch.hpp"
 #include "memory_fence.hpp"
@@ -29,6 +23,7 @@
 #include "request_line.hpp"
 #include "request_recorder.hpp"
 #include "supervisor.hpp"
+#include "work_share.hpp"
 
 // graspd: the planner as a DDS participant. Here, and nowhere else, it is decided what is built
 // with what.
@@ -46,59 +41,7 @@ constexpr int kExitUsage = 2;
 constexpr std::chrono::milliseconds kStopGrace{500};  // PlannerService::stop takes twice that
 constexpr std::chrono::milliseconds kAcknowledgeWait{300};
 constexpr std::chrono::milliseconds kStatusPeriod{1000};
-
-/// Everything that was read before a thread starts.
-struct Setup {
-    DaemonConfig config;
-    DdsSettings dds;
-    std::string network_why;  ///< what chose the profile file
-    std::vector<Gripper> grippers;
-    std::uint32_t restarts = 0;  ///< by the supervisor
-};
-
-std::string process_name() {
-    std::array<char, 256> host{};
-    const bool known = ::gethostname(host.data(), host.size() - 1) == 0;
-    return std::string(known ? host.data() : "graspd") + ":" + std::to_string(::getpid());
-}
-
-Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) {
-    const auto domain = choose_domain(arguments.domain);
-    if (!domain.ok()) return domain.error();
-    const auto profiles = find_profiles();
-    if (!profiles.ok()) return profiles.error();
-    auto grippers = load_grippers(profiles.value() / "grippers");
-    if (!grippers.ok()) return grippers.error();
-    auto hands = load_moveit_hands(profiles.value() / "grippers");
-    if (!hands.ok()) return hands.error();
-    auto moveit = moveit_settings(config.ros, std::move(hands).value());
-    if (!moveit.ok()) return moveit.error();
-    auto network = choose_network(arguments.profile_file, profiles.value(), network_environment());
-    if (!network.ok()) return network.error();
-    auto names = wire_names(arguments.ros);
-    if (!names.ok()) return names.error();
-    auto security = choose_security(arguments.ros.enclave, security_variables());
-    if (!security.ok()) return security.error();
-    DdsSettings dds;
-    dds.domain = domain.value();
-    dds.profile_file = network.value().profile_file;
-    dds.static_peers = network.value().static_peers;
-    dds.security = std::move(security).value();
-    dds.names = std::move(names).value();
-    dds.node = ros_node(arguments.ros, config.ros);
-    dds.moveit = std::move(moveit).value();
-    dds.planner_id = process_name();
-    dds.version = version();
-    dds.config_hash = config_hash(config.planner);
-    dds.max_payload_bytes = config.server.max_payload_bytes;
-    dds.limits = {config.planner.condition_mesh.max_vertices,
-                  config.planner.condition_mesh.max_faces,
-                  config.planner.triangulate_cloud.limit_points, config.server.max_obstacle_faces};
-    dds.keep_payloads = !config.server.record_dir.empty();
-    dds.markers = config.server.markers_when() != MarkersWhen::kNever;
-    return Setup{config, std::move(dds), network.value().why, std::move(grippers).value(),
-                 restarts_from_environment()};
-}
+constexpr unsigned kBeatsPerStatus = 8;  // where peers listen, who miss a planner after 500 ms
 
 int fail(const PlanError& error) {
     std::cerr << "graspd: " << error.detail << '\n';
@@ -183,6 +126,67 @@ ServiceParts parts_of(const Setup& setup, const std::unique_ptr<PlannerPort>& po
             [&] { ask_for_the_end(is_worn_out, setup.config.server.abandoned_plans); }};
 }
 
+/// Joins the domain; what comes goes to `share`, which gives the service its part.
+Result<std::unique_ptr<PlannerPort>> open_port(const DdsSettings& settings, PlannerService& service,
+                                               WorkShare& share) {
+    const auto now = [] { return WorkShare::Clock::now(); };
+    return PlannerPort::open(
+        settings,
+        [&share, now](auto request) {
+            log_received(request->identity());
+            share.receive(std::move(request), now());
+        },
+        [&service](const CancelOrder& order) { log_cancel(order, service.cancel(order)); },
+        [&service, &share](const GuidBytes& writer) {
+            share.drop(writer);
+            log_dropped(service.drop(writer));
+        },
+        {[&share, now](const GuidBytes& peer, bool serves) {
+             log_peer(peer, serves);
+             share.see(peer, serves, now());
+         },
+         [&share, now](const std::string& key) { share.answered(key, now()); }});
+}
+
+/// One beat: tells what this planner does, or no more than that it is alive, from when `share` says
+/// that others may know.
+class Herald {
+public:
+    Herald(WorkShare& share, PlannerPort& port, unsigned beats_per_status,
+           std::function<void()> tell)
+        : share_(share), port_(port), beats_per_status_(beats_per_status), tell_(std::move(tell)) {}
+
+    void operator()() {
+        if (!share_.tick(std::chrono::steady_clock::now())) return;
+        const ShareCounters now = share_.counters();
+        if (now.takes_part != takes_part_) log_takes_part(now.peers);
+        takes_part_ = now.takes_part;
+        if (beats_++ % beats_per_status_ == 0) return tell_();
+        port_.assert_alive();
+    }
+
+private:
+    WorkShare& share_;
+    PlannerPort& port_;
+    const unsigned beats_per_status_;
+    const std::function<void()> tell_;
+    unsigned beats_ = 0;
+    bool takes_part_ = false;  ///< as logged
+};
+
+/// Answers what is open, or leaves it to others. @return whether every thread of the service ended
+bool wind_down(PlannerService& service, WorkShare& share, const std::function<void()>& tell) {
+    if (!share.leave()) {
+        tell();
+        return service.stop(kStopGrace);
+    }
+    // Who takes the requests over must not hear that this planner stops before its last reply.
+    log_handed_over(service.hand_over());
+    const bool ended = service.stop(kStopGrace);
+    tell();
+    return ended;
+}
+
 /// Serves until a signal comes, or too many plans did not stop. @return the exit code
 int serve(const Setup& setup, const sigset_t& signals) {
     const auto recorder = open_recorder(setup);
@@ -193,27 +197,31 @@ int serve(const Setup& setup, const sigset_t& signals) {
     Painter painter(painter_parts(setup, port));
     PlannerService service(setup.config.server,
                            parts_of(setup, port, {record, painter}, is_worn_out));
-    auto opened = PlannerPort::open(
-        setup.dds,
-        [&](auto request) {
-            log_received(request->identity());
+    WorkShare share(
+        setup.config.share,
+        [&](std::unique_ptr<IncomingRequest> request, bool taken_over) {
+            if (taken_over) log_taken_over(request->identity());
             if (record != nullptr) record->received(*request);
             service.handle(std::move(request));
         },
-        [&](const CancelOrder& order) { log_cancel(order, service.cancel(order)); },
-        [&](const auto& writer) { log_dropped(service.drop(writer)); });
+        WorkShare::Clock::now());
+    auto opened = open_port(setup.dds, service, share);
     if (!opened.ok()) return fail(opened.error());
     port = std::move(opened).value();
+    share.set_self(port->id());
     service.start();
     const auto tell = [&](bool stopping) {
         PlannerState state =
             describe_state(service.counters(), setup.config.server, setup.grippers, stopping);
         state.restarts = setup.restarts;
+        describe_share(share.counters(), state);
         port->write_state(std::move(state));
     };
     IdleWatch idle(std::chrono::milliseconds(setup.config.server.idle_trim_ms));
-    Beat beat(kStatusPeriod, [&] {
-        tell(false);
+    const unsigned beats_per_status = setup.config.share.enabled ? kBeatsPerStatus : 1;
+    Herald herald(share, *port, beats_per_status, [&] { tell(false); });
+    Beat beat(kStatusPeriod / beats_per_status, [&] {
+        herald();
         const ServiceCounters now = service.counters();
         if (idle.is_due(now.received, now.open, std::chrono::steady_clock::now())) {
             give_back_freed_memory();
@@ -226,8 +234,7 @@ int serve(const Setup& setup, const sigset_t& signals) {
     spdlog::info("event=stopping signal={}", signal);
     port->stop_listening();
     beat.stop();
-    tell(true);
-    const bool ended = service.stop(kStopGrace);
+    const bool ended = wind_down(service, share, [&] { tell(true); });
     painter.stop();
     const bool confirmed = port->wait_acknowledged(kAcknowledgeWait);
     if (!confirmed) spdlog::warn("event=unconfirmed what=\"some replies were not acknowledged\"");

@@ -82,40 +82,6 @@ void PlannerService::receive(const RequestPtr& request) {
     finish_locked(request, stopping ? stopped(*request) : overloaded(*request), {});
 }
 
-std::size_t PlannerService::cancel(const CancelOrder& order) {
-    return cancel_those([&](const IncomingRequest& request) {
-        const RequestIdentity& identity = request.identity();
-        const bool every = order.request_id.empty();
-        return identity.client_id == order.client_id &&
-               (every || identity.request_id == order.request_id);
-    });
-}
-
-std::size_t PlannerService::drop(const std::array<std::uint8_t, 16>& writer) {
-    const std::size_t count = cancel_those([&](const IncomingRequest& request) {
-        return request.is_call() && request.identity().writer == writer;
-    });
-    const std::scoped_lock lock(mutex_);
-    counters_.dropped += count;
-    return count;
-}
-
-/// Answers CANCELLED to the chosen of the open requests, and tells their planners to stop.
-template <class Chosen>
-std::size_t PlannerService::cancel_those(Chosen&& chosen) {
-    const std::scoped_lock lock(mutex_);
-    std::vector<RequestPtr> named;
-    for (const auto& [request, open] : open_) {
-        if (chosen(*request)) named.push_back(request);
-    }
-    for (const RequestPtr& request : named) {
-        *open_.at(request).dropped = true;
-        queue_.remove(request);
-        finish_locked(request, cancelled(*request), {});
-    }
-    return named.size();
-}
-
 void PlannerService::work(Worker& worker) {
     std::shared_ptr<Worker> self = worker.shared_from_this();
     bool goes_on = true;

@@ -99,7 +99,11 @@ public:
     /// Answers CANCELLED to every open service call of a writer that has gone: nobody but its
     /// caller can read the answer. A request by the topic is planned all the same, for any reader
     /// may wait for its reply. Any thread. @return how many there were
-    std::size_t drop(const std::array<std::uint8_t, 16>& writer);
+    std::size_t drop(const GuidBytes& writer);
+
+    /// Forgets every open request without an answer and tells its planner to stop, where others
+    /// are left who answer it. Any thread. @return how many there were
+    std::size_t hand_over();
 
     /// Takes no more requests: those that wait are answered CANCELLED, those being planned are
     /// told to stop and answered. One that is not ready after `grace` is answered CANCELLED without

@@ -105,10 +105,28 @@ struct SupervisorConfig {
     }
 };
 
+/// How several planners of one domain share the requests; group `share` of planner.yaml.
+struct ShareConfig {
+    bool enabled = false;  ///< all planners of the domain must agree
+    /// Requests that a peer is to answer are kept, should it be lost; the oldest are forgotten
+    /// beyond this.
+    std::uint32_t max_held_requests = 1024;
+    std::uint64_t max_held_bytes = 256u << 20;  ///< [bytes] that those may take
+
+    template <class Self, class Visitor>
+    static void describe(Self& self, Visitor&& visit) {
+        visit("enabled", self.enabled);
+        visit("max_held_requests", self.max_held_requests, 1u, 1000000u);
+        visit("max_held_bytes", self.max_held_bytes, std::uint64_t{1} << 16,
+              std::uint64_t{1} << 40);
+    }
+};
+
 /// Everything that planner.yaml can set for the daemon.
 struct DaemonConfig {
     PlannerConfig planner;
     ServerConfig server;
+    ShareConfig share;
     RosConfig ros;
     SupervisorConfig supervisor;
 
@@ -116,6 +134,7 @@ struct DaemonConfig {
     static void describe(Self& self, Visitor&& visit) {
         PlannerConfig::describe(self.planner, visit);
         visit("server", self.server);
+        visit("share", self.share);
         visit("ros", self.ros);
         visit("supervisor", self.supervisor);
     }

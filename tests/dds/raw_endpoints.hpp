@@ -27,6 +27,18 @@ Bytes payload_of(const Struct& sample) {
     return dds::cdr_bytes(sample);
 }
 
+/// The bytes of a request as rmw_cyclonedds lays them out, put together by hand: encapsulation,
+/// eight bytes of the client's id, eight of the call's number, the members.
+inline Bytes with_header(const Bytes& plain, std::uint64_t client, std::int64_t number) {
+    Bytes out(plain.begin(), plain.begin() + 4);
+    for (int i = 0; i < 8; ++i) out.push_back(static_cast<std::uint8_t>(client >> (8 * i)));
+    for (int i = 0; i < 8; ++i) {
+        out.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(number) >> (8 * i)));
+    }
+    out.insert(out.end(), plain.begin() + 4, plain.end());
+    return out;
+}
+
 /// As it arrives: RTPS fills a payload up to a multiple of four bytes, with zeros.
 inline Bytes as_received(Bytes payload) {
     payload.resize((payload.size() + 3) / 4 * 4, 0);
@@ -80,10 +92,11 @@ public:
     }
     ~RawClient() override { participant_.reset(); }
 
-    bool wait_matched() {
+    bool wait_matched(int planners = 1) {
         std::unique_lock lock(mutex_);
-        return changed_.wait_for(lock, std::chrono::seconds(10),
-                                 [this] { return readers_ > 0 && writers_ > 0; });
+        return changed_.wait_for(lock, std::chrono::seconds(10), [this, planners] {
+            return readers_ >= planners && writers_ >= planners;
+        });
     }
     /// A full history gives way to a volatile writer with a timeout that means "try again".
     bool write(Bytes payload) {

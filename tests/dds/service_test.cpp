@@ -20,24 +20,13 @@ using test::service_topics;
 using test::SharedRequest;
 using test::StubPlanner;
 using test::verdict;
+using test::with_header;
 using namespace std::chrono_literals;
 
 dds::wire::GraspRequest_ wire_request(const std::string& id) {
     PlanRequest request = test::small_request();
     request.request_id = id;
     return dds::write_request(request, "caller").value();
-}
-
-/// The bytes of a request as rmw_cyclonedds lays them out, put together by hand: encapsulation,
-/// eight bytes of the client's id, eight of the call's number, the members.
-Bytes with_header(const Bytes& plain, std::uint64_t client, std::int64_t number) {
-    Bytes out(plain.begin(), plain.begin() + 4);
-    for (int i = 0; i < 8; ++i) out.push_back(static_cast<std::uint8_t>(client >> (8 * i)));
-    for (int i = 0; i < 8; ++i) {
-        out.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(number) >> (8 * i)));
-    }
-    out.insert(out.end(), plain.begin() + 4, plain.end());
-    return out;
 }
 
 dds::wire::RankedGrasps_ parsed(Bytes bytes) {

@@ -38,9 +38,11 @@ public:
     }
     ~WireClient() override { participant_.reset(); }
 
-    bool wait_matched() {
+    bool wait_matched(int planners = 1) {
         std::unique_lock lock(mutex_);
-        return changed_.wait_for(lock, kLimit, [this] { return readers_ > 0 && writers_ > 0; });
+        return changed_.wait_for(lock, kLimit, [this, planners] {
+            return readers_ >= planners && writers_ >= planners;
+        });
     }
 
     void send(const PlanRequest& request, const std::string& client_id = "wire") {

@@ -36,14 +36,15 @@ TEST(PlannerYaml, HoldsExactlyTheKeysOfThePlanner) {
     std::set<std::string> found;
     YAML::Node root = YAML::LoadFile(kFile.string());
     root.remove("server");  // the daemon's, which has a test of its own
-    root.remove("ros");     // likewise
+    root.remove("share");   // likewise
+    root.remove("ros");
     root.remove("supervisor");
     collect_keys(root, "", found);
     EXPECT_EQ(found, expected);
 }
 
 TEST(PlannerYaml, HoldsTheDefaultsAndEveryOneIsInItsRange) {
-    const auto loaded = load_config<PlannerConfig>(kFile, {}, {"server", "ros", "supervisor"});
+    const auto loaded = load_config<PlannerConfig>(kFile, {}, {"server", "share", "ros", "supervisor"});
     ASSERT_TRUE(loaded.ok()) << loaded.error().detail;
     EXPECT_EQ(print_config(loaded.value()), print_config(PlannerConfig{}));
 }

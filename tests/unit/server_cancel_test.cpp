@@ -103,6 +103,30 @@ TEST(Cancel, ARetryIsPlanned) {
     EXPECT_EQ(served.written.copy()[1].attempt, 2u);
 }
 
+// Other planners answer it: neither what waits nor what is being planned gets a reply from here.
+TEST(HandOver, LeavesEveryOpenRequestWithoutAnAnswer) {
+    SlowPlanner planner;
+    Served served(std::ref(planner), Served::one_worker(4));
+    served.service.handle(request(1, "planned"));
+    ASSERT_TRUE(planner.wait_for_calls(1));
+    served.service.handle(request(1, "waits"));
+    EXPECT_EQ(served.service.hand_over(), 2u);
+    EXPECT_EQ(served.service.counters().open, 0u);
+    planner.release();
+    EXPECT_TRUE(served.service.stop(std::chrono::seconds(5)));
+    EXPECT_THAT(served.written.copy(), testing::IsEmpty());
+    EXPECT_EQ(served.service.counters().lost, 0u);
+}
+
+TEST(DescribeState, TellsWhatIsShared) {
+    PlannerState state;
+    describe_share({.peers = 2, .held = 3, .taken_over = 4, .forgotten = 5, .takes_part = true},
+                   state);
+    EXPECT_EQ(state.peers, 2u);
+    EXPECT_EQ(state.held_requests, 3u);
+    EXPECT_EQ(state.taken_over, 4u);
+}
+
 TEST(DescribeState, TellsWhatTheServiceDoes) {
     SlowPlanner planner;
     ServerConfig config = Served::one_worker(2);

@@ -22,10 +22,11 @@ TEST(DaemonConfig, PlannerYamlHoldsEveryDefault) {
     std::ifstream stream(kFile);
     const std::string text(std::istreambuf_iterator<char>(stream), {});
     ServerConfig config;
+    ShareConfig share;
     RosConfig ros;
     SupervisorConfig supervisor;
-    for (const auto& settings : {config_detail::collect(config), config_detail::collect(ros),
-                                 config_detail::collect(supervisor)}) {
+    for (const auto& settings : {config_detail::collect(config), config_detail::collect(share),
+                                 config_detail::collect(ros), config_detail::collect(supervisor)}) {
         for (const auto& setting : settings) {
             EXPECT_THAT(text, HasSubstr("\n  " + setting.path.back() + ": "));
         }

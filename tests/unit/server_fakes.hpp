@@ -42,6 +42,7 @@ struct FakeRequest : IncomingRequest {
     double time_budget_s() const override { return problem.options.time_budget_s; }
     RequestSize size() const override { return counted; }
     bool is_call() const override { return call; }
+    void take_over(std::chrono::steady_clock::time_point now) override { at = now; }
     Result<PlanRequest> convert(std::span<const Gripper>) const override {
         if (error) return *error;
         return problem;

@@ -72,6 +72,7 @@ struct DdsSettings {
     RequestLimits limits;
     bool keep_payloads = false;  ///< IncomingRequest::payload() has the bytes
     bool markers = true;         ///< a planner has the topic for pictures
+    bool watch_peers = false;    ///< a planner hears of other planners and of their replies
 };
 
 }  // namespace graspd

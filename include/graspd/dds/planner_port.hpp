@@ -17,14 +17,22 @@
 
 namespace graspd {
 
+/// The sixteen bytes of a GUID: prefix, then entity id.
+using GuidBytes = std::array<std::uint8_t, 16>;
+
 /// Who asked for what. A request is (writer, request_id, payload_hash): the same three again are a
 /// retry; the same writer and id with other bytes are two requests under one name.
 struct RequestIdentity {
-    std::array<std::uint8_t, 16> writer{};  ///< GUID of the DDS writer: prefix, then entity id
+    GuidBytes writer{};              ///< of the DDS writer
     std::string client_id;           ///< its first 64 characters, unprintable ones shown as '?'
     std::string request_id;          ///< likewise; convert() refuses an id that this had to change
     std::uint64_t payload_hash = 0;  ///< content_hash() of the serialized payload
 };
+
+/// Of a request by the topic: 't', the writer's bytes, the request_id.
+inline std::string topic_reply_key(const RequestIdentity& identity) {
+    return "t" + std::string(identity.writer.begin(), identity.writer.end()) + identity.request_id;
+}
 
 /// How much geometry a request brings, counted before it is converted.
 struct RequestSize {
@@ -42,7 +50,7 @@ struct ReceivedPayload {
 };
 
 /// A request as the listener took it. Nothing has been converted yet, so taking it is cheap.
-/// Immutable, so safe to use from any thread.
+/// Immutable but for take_over(), so safe to use from any thread.
 class IncomingRequest {
 public:
     virtual ~IncomingRequest() = default;
@@ -55,6 +63,12 @@ public:
     virtual double time_budget_s() const = 0;
     virtual RequestSize size() const = 0;
     virtual bool is_call() const = 0;  ///< by the service: its caller alone can read the answer
+
+    /// What the reply to it bears, whichever planner writes it: PeerHandlers::answered() names it.
+    virtual std::string reply_key() const { return topic_reply_key(identity()); }
+    /// Its time budget counts from `now` on: another planner should have answered it. To be called
+    /// before others have it.
+    virtual void take_over(std::chrono::steady_clock::time_point now) = 0;
 
     /// Null unless DdsSettings::keep_payloads asks for it.
     virtual std::shared_ptr<const ReceivedPayload> payload() const { return nullptr; }
@@ -83,7 +97,16 @@ using CancelHandler = std::function<void(const CancelOrder&)>;
 
 /// Told of the GUID of a writer of service calls that has left, or whose participant has; as
 /// RequestHandler.
-using GoneHandler = std::function<void(const std::array<std::uint8_t, 16>&)>;
+using GoneHandler = std::function<void(const GuidBytes&)>;
+
+/// Told of the other planners of the domain, where DdsSettings::watch_peers is on; as
+/// RequestHandler. A planner goes by the GUID of the writer of its status.
+struct PeerHandlers {
+    /// It serves when it is alive, has said so and is not stopping.
+    std::function<void(const GuidBytes& peer, bool serves)> peer;
+    /// Told of every reply, our own too, by IncomingRequest::reply_key().
+    std::function<void(const std::string& reply_key)> answered;
+};
 
 /// What goes back. The ids, frame_id and stamp are echoed from `to`, not from `reply`.
 struct OutgoingReply {
@@ -104,7 +127,8 @@ public:
     static Result<std::unique_ptr<PlannerPort>> open(const DdsSettings& settings,
                                                      RequestHandler handler,
                                                      CancelHandler cancel = {},
-                                                     GoneHandler gone = {});
+                                                     GoneHandler gone = {},
+                                                     PeerHandlers peers = {});
     /// Leaves the domain: stops listening, then removes every endpoint.
     virtual ~PlannerPort() = default;
 
@@ -118,6 +142,11 @@ public:
     /// Writes what the planner says of itself to the topics status and diagnostics, and asserts
     /// that it is alive. To be called from one thread. @return false: not written
     virtual bool write_state(PlannerState state) = 0;
+    /// Says that this planner is alive, which nobody hears before the first write_state(). With
+    /// DdsSettings::watch_peers peers wait 0.5 s for it. Any thread.
+    virtual void assert_alive() = 0;
+    /// How peers know this planner.
+    virtual GuidBytes id() const = 0;
     /// Writes the picture of a plan to the topic markers, in place of the one before; `reply` is
     /// what was answered. May be called beside write() and write_state(), from one thread.
     /// @return false: not written, or DdsSettings::markers is off

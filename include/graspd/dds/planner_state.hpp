@@ -31,7 +31,11 @@ struct PlannerState {
     std::uint64_t rejected_payloads = 0;     ///< malformed samples; filled in by the port
     std::uint32_t restarts = 0;              ///< of the participant by its supervisor
     std::uint32_t abandoned_plans = 0;       ///< that overran their time budget and were given up
-    std::vector<std::string> grippers;       ///< profiles that are loaded
+    // Of planners that share requests, in the diagnostics alone:
+    std::uint32_t peers = 0;            ///< other planners that serve
+    std::uint32_t held_requests = 0;    ///< that a peer is to answer
+    std::uint64_t taken_over = 0;       ///< since the start, of peers that were lost
+    std::vector<std::string> grippers;  ///< profiles that are loaded
 };
 
 /// "READY", "FULL", "STOPPING".
