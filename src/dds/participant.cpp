@@ -23,6 +23,9 @@ using eprosima::fastrtps::types::ReturnCode_t;
 
 constexpr std::uint32_t kHighestDomain = 232;  // of the RTPS port formula
 
+const eprosima::fastrtps::Duration_t kPeerParticipantLease{1, 500000000};
+const eprosima::fastrtps::Duration_t kPeerAnnouncementPeriod{0, 300000000};
+
 fast::DomainParticipantFactory& factory() {
     return *fast::DomainParticipantFactory::get_instance();
 }
@@ -96,6 +99,14 @@ std::optional<PlanError> add_peers(const std::vector<std::string>& hosts,
     return std::nullopt;
 }
 
+/// Everybody drops a dead planner soon: until then its readers confirm nothing, and a writer that
+/// keeps what is not confirmed is full after a few samples.
+void shorten_lease(fast::DomainParticipantQos& qos) {
+    auto& discovery = qos.wire_protocol().builtin.discovery_config;
+    discovery.leaseDuration = kPeerParticipantLease;
+    discovery.leaseDuration_announcementperiod = kPeerAnnouncementPeriod;
+}
+
 void add_sender_apart(fast::DomainParticipantQos& qos) {
     auto sender = std::make_shared<eprosima::fastdds::rtps::FlowControllerDescriptor>();
     sender->name = kSenderApart;
@@ -128,6 +139,7 @@ Result<std::unique_ptr<Participant>> Participant::join(const DdsSettings& settin
         set_user_data(qos.user_data(), "enclave=" + settings.node.enclave + ";");
     }
     if (settings.security) set_security(*settings.security, qos);
+    if (settings.watch_peers) shorten_lease(qos);
     add_sender_apart(qos);
     std::unique_ptr<Participant> out(new Participant);
     out->participant_ = factory().create_participant(settings.domain, qos);
