@@ -17,6 +17,7 @@
 #include "peer_watch.hpp"
 #include "plan_markers.hpp"
 #include "received_request.hpp"
+#include "reply_envelope.hpp"
 #include "reply_writer.hpp"
 #include "ros_graph.hpp"
 #include "taking_listener.hpp"
@@ -113,7 +114,7 @@ public:
     }
 
     std::vector<std::uint8_t> payload_of(const OutgoingReply& reply) const override {
-        return cdr_bytes(write_reply(reply.reply, envelope_of(reply)));
+        return cdr_bytes(write_reply(reply.reply, envelope_of(reply, settings_)));
     }
 
     bool write_state(PlannerState state) override {
@@ -167,7 +168,7 @@ private:
         if (const auto* call = dynamic_cast<const MoveItRequest*>(reply.to.get())) {
             return moveit_ && moveit_->write(*call, reply.reply);
         }
-        wire::RankedGrasps_ sample = write_reply(reply.reply, envelope_of(reply));
+        wire::RankedGrasps_ sample = write_reply(reply.reply, envelope_of(reply, settings_));
         const auto* request = dynamic_cast<const ReceivedRequest*>(reply.to.get());
         const auto& caller = reply.to->identity().writer;
         if (request == nullptr || !request->call) {
@@ -239,31 +240,6 @@ private:
             handle_cancel_({printable(order.client_id()), printable(order.request_id())});
         }
         return true;
-    }
-
-    /// F, and when the object was there.
-    static std_msgs::msg::dds_::Header_ header_of(const IncomingRequest& to) {
-        std_msgs::msg::dds_::Header_ header;
-        if (const auto* request = dynamic_cast<const ReceivedRequest*>(&to)) {
-            header.stamp(request->sample.header().stamp());
-        } else if (const auto* call = dynamic_cast<const MoveItRequest*>(&to)) {
-            header.stamp(call->sample.target().header().stamp());
-        }
-        header.frame_id(to.frame_id());
-        return header;
-    }
-
-    ReplyEnvelope envelope_of(const OutgoingReply& reply) const {
-        ReplyEnvelope out;
-        out.header = header_of(*reply.to);
-        out.request_writer = reply.to->identity().writer;
-        out.client_id = reply.to->identity().client_id;
-        out.request_id = reply.to->identity().request_id;
-        out.attempt = reply.attempt;
-        out.planner_id = settings_.planner_id;
-        out.planner_version = settings_.version;
-        out.config_hash = settings_.config_hash;
-        return out;
     }
 
     DdsSettings settings_;

@@ -42,7 +42,7 @@ public:
     static constexpr std::chrono::milliseconds kSettle{1000};
     static constexpr std::chrono::milliseconds kHeard{200};
     /// Beyond its time budget, for a request whose reply does not come.
-    static constexpr std::chrono::milliseconds kPatience{500};
+    static constexpr std::chrono::milliseconds kPatience{1000};
 
     /// Plans a request. `taken_over`: another planner should have.
     using Plan = std::function<void(std::unique_ptr<IncomingRequest>, bool taken_over)>;

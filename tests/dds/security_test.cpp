@@ -110,6 +110,22 @@ TEST_F(Security, NobodyElseReachesThePlanner) {
     EXPECT_THAT(log_of(daemon), HasSubstr("received=0 ok=0"));
 }
 
+// They see each other's status, so the keystore lets them read it, and one of them answers.
+TEST_F(Security, PlannersOfTheKeystoreShareRequests) {
+    auto arguments = daemon_arguments();
+    arguments.insert(arguments.end(), {"--ros-args", "-p", "share.enabled:=true"});
+    ChildProcess first(kEnv, keystore_->as("/graspd", GRASPD_PROGRAM, arguments));
+    ChildProcess second(kEnv, keystore_->as("/graspd", GRASPD_PROGRAM, arguments));
+    ASSERT_TRUE(first.wait_for_error_text("serves=true")) << first.errors();
+    ASSERT_TRUE(second.wait_for_error_text("serves=true")) << second.errors();
+    ChildProcess client(kEnv,
+                        keystore_->as("/client", GRASPCTL_PROGRAM, request_arguments("8000")));
+    EXPECT_EQ(client.wait_exit(), 0) << client.errors();
+    const std::string logs = log_of(first) + log_of(second);
+    EXPECT_THAT(logs, HasSubstr("received=1 ok=1"));
+    EXPECT_THAT(logs, HasSubstr("received=0 ok=0"));
+}
+
 TEST_F(Security, ABrokenKeystoreEndsTheStart) {
     ChildProcess nowhere(kEnv, keystore_->as("/nobody", GRASPD_PROGRAM, daemon_arguments()));
     EXPECT_EQ(nowhere.wait_exit(), 2);

@@ -11,6 +11,8 @@ have the same two cores.
   killed      N planners, one ended by kill -9 in the middle
   cut         N planners, the link of one down for three seconds
   stopped     N planners, one asked to stop in the middle
+  servers     N planners and the client find each other by two discovery servers instead of multicast, one
+              of which is killed in the middle; needs fast-discovery-server (Debian: fastdds-tools)
 
 Checked: every request is answered without a retry; nobody answers one twice where nobody is lost; what
 was open when a planner was lost is answered within 2 s and the time that as many requests take. Prints a
@@ -73,11 +75,12 @@ class Host:
     def __init__(self, number):
         self.name = f"host{number}"
         self.link = f"veth{number}"
+        self.address = f"{NETWORK}.{number}"
         ip("netns", "add", self.name)
         ip("link", "add", self.link, "type", "veth", "peer", "name", "eth0", "netns", self.name)
         ip("link", "set", self.link, "master", "bridge0", "up")
         self.ip_inside("link", "set", "lo", "up")
-        self.ip_inside("addr", "add", f"{NETWORK}.{number}/24", "dev", "eth0")
+        self.ip_inside("addr", "add", f"{self.address}/24", "dev", "eth0")
         self.ip_inside("link", "set", "eth0", "up")
         self.ip_inside("route", "add", "239.0.0.0/8", "dev", "eth0")
 
@@ -111,7 +114,7 @@ class Process:
     def count(self, text):
         return sum(text in line for line in list(self.lines))
 
-    def finish(self, timeout=120):
+    def finish(self, timeout=600):
         code = self.process.wait(timeout)
         self.thread.join(timeout)
         return code
@@ -121,7 +124,7 @@ class Planner(Process):
     def __init__(self, host, options):
         self.group = None
         command = [options.graspd, "--config", options.config, "--domain", str(options.domain)]
-        command += ["--profile", str(PROFILES / "dds/lan.xml")]
+        command += ["--profile", options.profile]
         super().__init__(host, command, "stderr")
         if options.cpu:
             self.group = CGROUP / host.name
@@ -163,7 +166,7 @@ class Hosts:
     def ask(self, phase, planners, requests, in_flight):
         command = [self.options.client, "--object", self.options.object, "--requests", str(requests)]
         command += ["--in-flight", str(in_flight), "--prefix", f"{phase}-", "--planners", str(planners)]
-        command += ["--domain", str(self.options.domain), "--profile", str(PROFILES / "dds/lan.xml")]
+        command += ["--domain", str(self.options.domain), "--profile", self.options.profile]
         return Process(self.hosts[-1], command, "stdout")
 
     def wait_for_replies(self, client, count):
@@ -215,7 +218,7 @@ class Hosts:
     def throughput(self, count):
         planners = self.start(count)
         requests = self.options.requests
-        client = self.ask("throughput", count, requests, 8 * count)
+        client = self.ask("throughput", count, requests, 3 * count)
         twice = self.report("throughput", client, planners, requests)
         self.require(twice == 0, f"throughput: {twice} answered twice")
         self.stop(planners)
@@ -223,7 +226,7 @@ class Hosts:
     def lose_one(self, phase, lose, restore=None, wants_twice=False):
         count, requests = self.options.planners, self.options.requests
         planners = self.start(count)
-        client = self.ask(phase, count, requests, 8 * count)
+        client = self.ask(phase, count, requests, 3 * count)
         self.wait_for_replies(client, requests // 3)
         lost = time.monotonic()
         lose(planners[0])
@@ -236,7 +239,27 @@ class Hosts:
         if planners[0].process.poll() is None:
             planners[0].end(signal.SIGTERM)
 
-    def run(self):
+    def servers(self, folder):
+        """Everybody is a client of two discovery servers on hosts of the planners."""
+        program = shutil.which("fast-discovery-server")
+        if program is None:
+            print("servers: not tried, there is no fast-discovery-server")
+            return
+        for host in self.hosts:
+            host.ip_inside("route", "del", "239.0.0.0/8")
+        servers = []
+        text = (PROFILES / "dds/discovery_server.xml").read_text()
+        text = re.sub(r"<interfaceWhiteList>.*?</interfaceWhiteList>", "", text, flags=re.DOTALL)
+        for number, port in ((0, 11811), (1, 11812)):
+            host = self.hosts[number]
+            text = text.replace("<address>127.0.0.1</address>", f"<address>{host.address}</address>", 1)
+            command = [program, "-i", str(number), "-l", host.address, "-p", str(port)]
+            servers.append(Process(host, command, "stdout"))
+        self.options.profile = str(folder / "servers.xml")
+        Path(self.options.profile).write_text(text)
+        self.lose_one("servers", lambda planner: servers[0].process.kill(), wants_twice=False)
+
+    def run(self, folder):
         for count in range(1, self.options.planners + 1):
             self.throughput(count)
         # At least once: what a lost planner answered as it was lost may be planned again.
@@ -244,6 +267,7 @@ class Hosts:
         self.lose_one("cut", lambda planner: ip("link", "set", planner.host.link, "down"),
                       lambda planner: ip("link", "set", planner.host.link, "up"), wants_twice=True)
         self.lose_one("stopped", lambda planner: planner.end(signal.SIGTERM))
+        self.servers(folder)
 
     def print_table(self):
         head = ("phase", "planners", "answered", "per s", "p50 ms", "max ms", "by planner", "taken over",
@@ -272,11 +296,12 @@ def main():
     folder = Path(tempfile.mkdtemp(prefix="graspd_hosts_"))
     options.config = str(folder / "planner.yaml")
     options.domain = 40
+    options.profile = str(PROFILES / "dds/lan.xml")
     Path(options.config).write_text(CONFIG)
     hosts = None
     try:
         hosts = Hosts(options)
-        hosts.run()
+        hosts.run(folder)
         return 1 if hosts.violations else 0
     finally:
         if hosts is not None:
