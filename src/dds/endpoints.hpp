@@ -66,8 +66,11 @@ inline constexpr Contract kPeerStatusEnds{.profile = "graspd_peer_status",
                                           .limit = 1024,
                                           .lease_ms = kPeerLease_ms,
                                           .watches_lease = true};
-inline constexpr Contract kPeerReplyEnds{
-    .profile = "graspd_peer_replies", .limit = 1024, .announces_hash = false};
+/// A reader that is matched late hears of the replies before, and what it holds is held no longer.
+inline constexpr Contract kPeerReplyEnds{.profile = "graspd_peer_replies",
+                                         .transient_local = true,
+                                         .limit = 1024,
+                                         .announces_hash = false};
 
 /// The sender of writers that send apart; every participant knows it, none has its thread without
 /// such a writer.

