@@ -226,7 +226,7 @@ class Hosts:
     def lose_one(self, phase, lose, restore=None, wants_twice=False):
         count, requests = self.options.planners, self.options.requests
         planners = self.start(count)
-        client = self.ask(phase, count, requests, 3 * count)
+        client = self.ask(phase, count, requests, count + 1)
         self.wait_for_replies(client, requests // 3)
         lost = time.monotonic()
         lose(planners[0])
