@@ -6,8 +6,9 @@ if(NOT PROJECT_IS_TOP_LEVEL)
 endif()
 
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_VENDOR "graspd developers")
-set(CPACK_PACKAGE_CONTACT "graspd developers <graspd@example.org>")
+set(CPACK_PACKAGE_VENDOR "graspd maintainers")
+# Packages must name an address; there is none, and .invalid (RFC 2606) leads to nobody's. See SECURITY.md.
+set(CPACK_PACKAGE_CONTACT "graspd maintainers <graspd@graspd.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL graspd libgraspd libgraspd-dev)
