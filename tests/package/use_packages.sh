@@ -12,15 +12,24 @@ apt-get -qq update
 before=$(dpkg-query -W | wc -l)
 install /packages/graspd_*.deb /packages/libgraspd_*.deb
 echo "-- installed $(($(dpkg-query -W | wc -l) - before)) packages, $(du -shx --exclude=/proc --exclude=/dev / | cut -f1) in all"
-systemd_unit=$(find /usr/lib/systemd /lib/systemd -name graspd.service | head -n 1)
-grep -q 'ExecStart=/usr/bin/graspd' "$systemd_unit" || fail "unit"
 
-for file in man/man1/graspctl.1 man/man8/graspd.8 bash-completion/completions/graspctl; do
-    [ -s "/usr/share/$file" ] || fail "$file"
+echo "-- manual pages and completion"
+for page in 'GRASPCTL 1:man1/graspctl.1' 'GRASPD 8:man8/graspd.8'; do
+    grep -q "^.TH ${page%:*} " "/usr/share/man/${page#*:}" || fail "${page#*:}"
 done
+grep -q '^#compdef graspctl' /usr/share/zsh/vendor-completions/_graspctl || fail "_graspctl"
+offered=$(bash -c '. /usr/share/bash-completion/completions/graspctl
+    COMP_WORDS=(graspctl pl) COMP_CWORD=1; _graspctl; echo "${COMPREPLY[@]}"')
+[ "$offered" = plan ] || fail "completion of pl: '$offered'"
 
 echo "-- a plan in the process"
 graspctl plan /check/stacking_cup.ply --top 1
+
+echo "-- a report page"
+graspctl plan /check/stacking_cup.ply --report /tmp/report >/tmp/reply || fail "plan --report"
+for file in report.html reply.json reply.txt; do
+    [ -s /tmp/report/$file ] || fail "--report: no $file"
+done
 
 echo "-- the daemon and a request"
 graspd --domain 77 2>/tmp/graspd.log &
@@ -30,6 +39,15 @@ graspctl request /check/stacking_cup.ply --domain 77 --top 1 --timeout 10000 --r
 head -n 3 /tmp/reply
 kill -TERM $daemon
 wait $daemon || fail "graspd ended with $?"
+
+echo "-- what was installed, seen with tools that graspd does without"
+install python3 systemd
+python3 -B /check/read_report.py /tmp/report/report.html || fail "report.html"
+unit=$(find /usr/lib/systemd /lib/systemd -name graspd.service | head -n 1)
+grep -q '^ExecStart=/usr/bin/graspd --supervise' "$unit" || fail "unit '$unit'"
+systemd-analyze verify --man=no "$unit" >/tmp/verify 2>&1 || { cat /tmp/verify; fail "systemd-analyze verify"; }
+[ ! -s /tmp/verify ] || { cat /tmp/verify; fail "systemd-analyze verify warns"; }
+systemd-analyze security --offline=true "$unit" 2>/dev/null | tail -n 1
 
 echo "-- a program that links the library"
 install /packages/libgraspd-dev_*.deb cmake g++ make
