@@ -13,10 +13,10 @@ import sys
 from html.parser import HTMLParser
 
 LOADING_ATTRIBUTES = {"src", "srcset", "href", "data", "action", "poster", "background"}
-# In style sheets and scripts. three.js names the namespace of XHTML, which is not loaded.
+# In style sheets and scripts, which name the namespaces of XHTML and SVG; nobody loads those.
 LOADING_TEXT = re.compile(
-    r"@import|url\(\s*[\"']?(?!data:|#)|\b(?:fetch|importScripts|import)\s*\(\s*[\"'`]|"
-    r"https?://(?!www\.w3\.org/1999/xhtml)", re.IGNORECASE)
+    r"@import|\burl\(\s*[\"']?(?!data:|#)|\b(?:fetch|importScripts|import)\s*\(\s*[\"'`]|"
+    r"https?://(?!www\.w3\.org/(?:1999/xhtml|2000/svg)\")")
 
 
 class Page(HTMLParser):
