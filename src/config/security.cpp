@@ -28,7 +28,20 @@ PlanError refused(const char* name, const std::string& value, const char* must) 
 }
 
 bool is_readable(const fs::path& file) {
-    return fs::is_regular_file(file) && std::ifstream(file).good();
+    std::error_code failed;
+    return fs::is_regular_file(file, failed) && std::ifstream(file).good();
+}
+
+/// Whether it is a folder. An error where that cannot be seen (no permission to look): taken for
+/// "no", a Permissive node would run without security.
+Result<bool> is_folder(const fs::path& path) {
+    std::error_code failed;
+    const fs::file_status status = fs::status(path, failed);
+    if (status.type() == fs::file_type::none) {
+        return PlanError{PlanErrorCode::kUnreadableFile,
+                         "security keystore: " + path.string() + ": " + failed.message()};
+    }
+    return fs::is_directory(status);
 }
 
 /// @param said  a variable of two values. @return whether it has the second one
@@ -76,13 +89,17 @@ Result<std::optional<SecurityEnclave>> choose_security(const std::string& enclav
     if (!enforced) return enforced.error();
     const std::string chosen = variables.enclave.value_or(enclave);
     if (auto bad = check_enclave(kEnclave, chosen)) return *std::move(bad);
-    if (!variables.keystore || !fs::is_directory(*variables.keystore)) {
+    const auto keystore = is_folder(variables.keystore.value_or(""));
+    if (!keystore) return keystore.error();
+    if (!keystore.value()) {
         return refused(kKeystore, variables.keystore.value_or("(unset)"),
                        "is no folder, and ROS_SECURITY_ENABLE is true");
     }
     fs::path folder = fs::path(*variables.keystore) / "enclaves";
     if (chosen != "/") folder /= chosen.substr(1);
-    if (!fs::is_directory(folder) && !enforced.value()) return std::optional<SecurityEnclave>();
+    const auto present = is_folder(folder);
+    if (!present) return present.error();
+    if (!present.value() && !enforced.value()) return std::optional<SecurityEnclave>();
     std::error_code failed;
     const fs::path absolute = fs::absolute(folder, failed);
     return read_enclave(failed ? folder : absolute);

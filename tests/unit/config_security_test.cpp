@@ -76,6 +76,17 @@ TEST_F(ConfigSecurity, AMissingEnclaveIsAnErrorOnlyWhereSecurityIsEnforced) {
     EXPECT_FALSE(permissive.value().has_value());
 }
 
+// A link to itself cannot be looked at, by root either: an error that names it, never "no
+// security".
+TEST_F(ConfigSecurity, WhatCannotBeLookedAtIsAnError) {
+    fs::create_directory_symlink("loop", keystore_ / "enclaves/loop");
+    const SecurityVariables permissive{"true", "Permissive", keystore_.string(), {}};
+    EXPECT_THAT(error_of("/loop", permissive), HasSubstr("enclaves/loop: "));
+    EXPECT_THAT(error_of("/loop", enforced()), HasSubstr("enclaves/loop: "));
+    const std::string loop = (keystore_ / "enclaves/loop").string();
+    EXPECT_THAT(error_of("/arm", {"true", "Permissive", loop, {}}), HasSubstr("enclaves/loop: "));
+}
+
 TEST_F(ConfigSecurity, EachMissingFileIsNamed) {
     for (const char* file : kFiles) {
         const fs::path path = keystore_ / "enclaves/arm" / file;
