@@ -5,7 +5,10 @@ project=graspd-check
 pod=graspd-pod-0
 
 compose() { docker-compose -p $project -f docker/compose.yaml "$@"; }
-compose_container() { podman ps -a -q --filter label=com.docker.compose.project=$project --filter label=com.docker.compose.service="$1"; }
+compose_container() {
+    podman ps -a -q --filter label=com.docker.compose.project=$project \
+        --filter label=com.docker.compose.service="$1"
+}
 
 cleanup_files() {
     [ -z "${watch-}" ] || kill "$watch" 2>/dev/null || true
@@ -30,6 +33,10 @@ watch_health() {
     done
 }
 
+# Where a planner has just been killed.
+patient_request="graspctl request $box --top 1 --out /dev/null --timeout 3000 --retries 5 2>/dev/null &&
+    echo answered"
+
 answered_once() { podman logs "$1" 2>/dev/null | grep -q '^box: OK, [1-9]'; }
 
 check_compose() {
@@ -39,8 +46,10 @@ check_compose() {
     watch=$!
     begin=$(milliseconds)
     # The client depends on a healthy planner: up ends when that is so.
-    found=$(timeout 60 docker-compose -p $project -f docker/compose.yaml up -d --no-build >"$sockets/log" 2>&1 && echo up || echo failed)
-    row "compose: up, client after healthy planner" "$found, $(($(milliseconds) - begin)) ms" "up" "$(holds "$found" = up)"
+    timeout 60 docker-compose -p $project -f docker/compose.yaml up -d --no-build \
+        >"$sockets/log" 2>&1 && found=up || found=failed
+    row "compose: up, client after healthy planner" "$found, $(($(milliseconds) - begin)) ms" "up" \
+        "$(holds "$found" = up)"
     kill $watch
     [ "$found" = up ] || { cat "$sockets/log" >&2; return; }
     planner=$(compose_container graspd) client=$(compose_container client)
@@ -48,10 +57,12 @@ check_compose() {
     row "compose: the client's own request" "$found" "answered" "$(holds $found = answered)"
     found=$(inside "$client" "$ten_requests")
     row "compose: requests answered with grasps" "$found" "10 of 10" "$(holds "$found" = "10 of 10")"
-    found=$(podman inspect -f '{{.HostConfig.Memory}} {{.HostConfig.PidsLimit}} {{.HostConfig.ReadonlyRootfs}}' "$planner")
-    row "compose: memory, processes, read-only" "$found" "4294967296 256 true" "$(holds "$found" = "4294967296 256 true")"
+    found=$(podman inspect "$planner" \
+        -f '{{.HostConfig.Memory}} {{.HostConfig.PidsLimit}} {{.HostConfig.ReadonlyRootfs}}')
+    row "compose: memory, processes, read-only" "$found" "4294967296 256 true" \
+        "$(holds "$found" = "4294967296 256 true")"
     signal_planner "$planner" KILL
-    found=$(inside "$client" "graspctl request $box --top 1 --timeout 3000 --retries 5 >/dev/null && echo answered" | tail -n 1)
+    found=$(inside "$client" "$patient_request")
     row "compose: request after a kill" "$found" "answered" "$(holds "$found" = answered)"
     begin=$(milliseconds)
     compose stop >/dev/null 2>&1
@@ -77,15 +88,17 @@ check_pod() {
     found=$(health_of $planner)
     row "pod: liveness probe" "$found" "healthy" "$(holds "$found" = healthy)"
     check_confinement $planner "pod: "
-    found=$(podman run --rm --network host "${confined[@]}" --entrypoint sh "$image" -c "$ten_requests")
+    found=$(podman run --rm --network host "${confined[@]}" --entrypoint sh "$image" \
+        -c "$ten_requests")
     row "pod: requests from a container beside it" "$found" "10 of 10" "$(holds "$found" = "10 of 10")"
     started=$(podman inspect -f '{{.State.StartedAt}}' $planner)
     signal_planner $planner STOP
     found=$(for ((i = 0; i < 3; ++i)); do health_of $planner; done | sort -u)
     row "pod: liveness probe of a stuck planner" "$found" "unhealthy" "$(holds "$found" = unhealthy)"
-    found=$([ "$started" != "$(podman inspect -f '{{.State.StartedAt}}' $planner)" ] && echo restarted || echo left)
+    [ "$started" != "$(podman inspect -f '{{.State.StartedAt}}' $planner)" ] &&
+        found=restarted || found=left
     row "pod: after three of these" "$found" "restarted" "$(holds $found = restarted)"
-    found=$(inside $planner "graspctl request $box --top 1 --timeout 3000 --retries 5 >/dev/null && echo answered" | tail -n 1)
+    found=$(inside $planner "$patient_request")
     row "pod: then a request" "$found" "answered" "$(holds "$found" = answered)"
     begin=$(milliseconds)
     podman kube down docker/k8s.yaml >/dev/null
