@@ -35,6 +35,8 @@ set(CPACK_COMPONENT_LIBGRASPD-DEV_DESCRIPTION "Grasp planner for unknown objects
 set(graspd_deb_version ${PROJECT_VERSION})
 set(CPACK_DEBIAN_GRASPD_PACKAGE_NAME graspd)
 set(CPACK_DEBIAN_GRASPD_PACKAGE_DEPENDS "libgraspd (= ${graspd_deb_version})")
+# EGL needs a driver for the pictures of simulate and report.
+set(CPACK_DEBIAN_GRASPD_PACKAGE_RECOMMENDS libgl1-mesa-dri)
 set(CPACK_DEBIAN_LIBGRASPD_PACKAGE_NAME libgraspd)
 set(CPACK_DEBIAN_LIBGRASPD_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBGRASPD-DEV_PACKAGE_NAME libgraspd-dev)
