@@ -5,6 +5,7 @@
 
 #include "graspd/base/content_hash.hpp"
 #include "guid_bytes.hpp"
+#include "request_limits.hpp"
 
 namespace graspd::dds {
 namespace {
@@ -68,7 +69,7 @@ bool MoveItService::open_writer(Participant& participant, const std::string& top
 
 bool MoveItService::open_reader(Participant& participant, const std::string& topic) {
     reader_ = participant.create_reader(
-        {topic, fast::TypeSupport(new RawType(kRequestType, guard_)), kMoveItRequestEnds},
+        {topic, fast::TypeSupport(new CallType(kRequestType, guard_)), kMoveItRequestEnds},
         &listener_);
     return reader_ != nullptr;
 }
@@ -86,13 +87,15 @@ bool MoveItService::write(const MoveItRequest& to, const PlanReply& reply) {
 
 bool MoveItService::take_call(fast::DataReader& reader) {
     static const CdrStruct* const layout = wire_layouts().find(kRequestType);
-    Bytes payload;
+    CallPayload payload;
     fast::SampleInfo info;
     if (reader.take_next_sample(&payload, &info) != ReturnCode_t::RETCODE_OK) return false;
     if (!info.valid_data) return true;
-    const auto opened = open_service_call(payload, info);
+    const auto opened = open_service_call(payload.bytes, info);
     auto request = std::make_unique<MoveItRequest>(settings_);
-    if (!opened || layout == nullptr || !read_cdr(opened->members, *layout, request->sample)) {
+    request->refused = too_many_bytes(payload.sent_bytes, guard_->max_payload_bytes);
+    if (!opened || layout == nullptr ||
+        (!request->refused && !read_cdr(opened->members, *layout, request->sample))) {
         guard_->rejected.fetch_add(1, std::memory_order_relaxed);
         return true;
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "convert_moveit.hpp"
@@ -17,6 +18,7 @@ class MoveItRequest final : public IncomingRequest {
 public:
     MoveItCall sample;
     ServiceCall call;
+    std::optional<PlanError> refused;  ///< over a limit: nothing was read then
 
     explicit MoveItRequest(std::shared_ptr<const MoveItSettings> settings)
         : settings_(std::move(settings)) {}
@@ -32,6 +34,7 @@ public:
     std::string reply_key() const override { return reply_key_of(call); }
     void take_over(std::chrono::steady_clock::time_point now) override { received_ = now; }
     Result<PlanRequest> convert(std::span<const Gripper> known) const override {
+        if (refused) return *refused;
         return read_moveit_call(sample, identity_.request_id, known, *settings_);
     }
 

@@ -88,8 +88,8 @@ public:
             reader<RequestType>(names.grasp_request, kRequestEnds, request_listener_),
             reader<CancelType>(names.cancel, kCancelEnds, cancel_listener_),
             participant_->create_reader(
-                {names.service_request, fast::TypeSupport(new RawType(kServiceRequestType, guard_)),
-                 kServiceRequestEnds},
+                {names.service_request,
+                 fast::TypeSupport(new CallType(kServiceRequestType, guard_)), kServiceRequestEnds},
                 &service_listener_)};
         if (std::ranges::count(readers, nullptr) > 0) return refused();
         if (moveit_ && !moveit_->open_reader(*participant_, names.moveit_request)) return refused();
@@ -219,7 +219,7 @@ private:
     }
 
     bool take_call(fast::DataReader& reader) {
-        Bytes payload;
+        CallPayload payload;
         fast::SampleInfo info;
         if (reader.take_next_sample(&payload, &info) != ReturnCode_t::RETCODE_OK) return false;
         if (!info.valid_data) return true;

@@ -70,10 +70,10 @@ std::optional<OpenedCall> open_service_call(std::span<std::uint8_t> payload,
     return opened;
 }
 
-std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
+std::unique_ptr<ReceivedRequest> read_service_call(CallPayload payload,
                                                    const eprosima::fastdds::dds::SampleInfo& info,
                                                    const PayloadGuard& guard, bool keep_payload) {
-    const auto opened = open_service_call(payload, info);
+    const auto opened = open_service_call(payload.bytes, info);
     if (!opened) return nullptr;
     auto request = std::make_unique<ReceivedRequest>();
     request->call = opened->call;
@@ -82,7 +82,7 @@ std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
         request->sample.payload = std::make_shared<ReceivedPayload>();
         request->sample.payload->by_service = true;
     }
-    if (!request->sample.read(opened->members, guard)) return nullptr;
+    if (!request->sample.read(opened->members, payload.sent_bytes, guard)) return nullptr;
     if (request->sample.request_id().empty()) {
         request->sample.request_id("call-" + std::to_string(opened->number));
     }

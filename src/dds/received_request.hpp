@@ -94,7 +94,7 @@ bool write_service_reply(const ServiceCall& call, const Struct& reply,
 /// Reads a call of the planner's own service. A call without a request_id gets one, "call-" with
 /// the call's number: the service itself tells replies apart.
 /// @return null for a malformed payload
-std::unique_ptr<ReceivedRequest> read_service_call(Bytes payload,
+std::unique_ptr<ReceivedRequest> read_service_call(CallPayload payload,
                                                    const eprosima::fastdds::dds::SampleInfo& info,
                                                    const PayloadGuard& guard,
                                                    bool keep_payload = false);

@@ -71,7 +71,8 @@ void ReceivedSample::read(std::span<std::uint8_t> bytes) {
     payload_hash = content_hash(std::as_bytes(bytes));
 }
 
-bool ReceivedSample::read(std::span<std::uint8_t> bytes, const PayloadGuard& guard) {
+bool ReceivedSample::read(std::span<std::uint8_t> bytes, std::uint64_t sent_bytes,
+                          const PayloadGuard& guard) {
     static const CdrStruct* const layout =
         wire_layouts().find("graspd_msgs::msg::dds_::GraspRequest_");
     received = std::chrono::steady_clock::now();
@@ -79,7 +80,7 @@ bool ReceivedSample::read(std::span<std::uint8_t> bytes, const PayloadGuard& gua
     const auto count = [&](const CdrMember& member, const CdrMember& sequence, std::uint64_t n) {
         counts.see(member.name, sequence.name, n, sequence.most);
     };
-    refused = too_many_bytes(bytes.size(), guard.max_payload_bytes);
+    refused = too_many_bytes(sent_bytes, guard.max_payload_bytes);
     if (!refused && !is_well_formed(bytes, *layout, count)) return false;
     if (refused) payload = nullptr;  // no file for what no memory is spent on
     if (payload) payload->bytes.assign(bytes.begin(), bytes.end());

@@ -27,9 +27,14 @@ struct ReceivedSample : wire::GraspRequest_ {
     RequestSize size;
     std::optional<PlanError> refused;  ///< over a limit: nothing but its names was read then
 
-    /// Counts, compares with the limits, then reads. @param bytes  with the encapsulation header
+    /// Counts, compares with the limits, then reads. @param bytes  with the encapsulation header;
+    /// of a payload over the limit as many as hold the names are enough
+    /// @param sent_bytes  as many as came
     /// @return false for a malformed payload, and for one over a limit whose names cannot be read
-    bool read(std::span<std::uint8_t> bytes, const PayloadGuard& guard);
+    bool read(std::span<std::uint8_t> bytes, std::uint64_t sent_bytes, const PayloadGuard& guard);
+    bool read(std::span<std::uint8_t> bytes, const PayloadGuard& guard) {
+        return read(bytes, bytes.size(), guard);
+    }
 
     /// Reads everything from a payload that is_well_formed() has let through, of either byte order.
     /// Throws what fastcdr throws.

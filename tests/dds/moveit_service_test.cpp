@@ -188,6 +188,25 @@ TEST(MoveItService, MalformedCallsAreRefusedAndCounted) {
     EXPECT_EQ(planner.port().rejected_payloads(), 4u);
 }
 
+// The caller is told, as MoveIt tells it: an error code and why.
+TEST(MoveItService, ACallAboveTheCapIsAnswered) {
+    auto large = ball("large");
+    for (int i = 0; i < 100; ++i) large.movable_obstacles().push_back(large.target());
+    DdsSettings settings = moveit_settings();
+    settings.max_payload_bytes = static_cast<std::uint32_t>(payload_of(ball("ball")).size()) + 100;
+    StubPlanner planner(none, settings);
+    RawClient caller(moveit_topics());
+    ASSERT_TRUE(caller.wait_matched());
+    ASSERT_NE(caller.call(payload_of(large)), 0u);
+    ASSERT_EQ(caller.wait_for(1).size(), 1u);
+    const auto requests = planner.wait_for(1);
+    ASSERT_EQ(requests.size(), 1u);
+    const auto refused = requests[0]->convert({});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_THAT(refused.error().detail, testing::HasSubstr("server.max_payload_bytes"));
+    EXPECT_EQ(planner.port().rejected_payloads(), 0u);
+}
+
 TEST(MoveItService, MayBeOff) {
     StubPlanner planner(none, moveit_settings(MoveItCodes::kOff));
     RawClient asks_the_planner(test::service_topics());

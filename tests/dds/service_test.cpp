@@ -127,6 +127,31 @@ TEST(Service, MalformedCallsAreRefusedAndCounted) {
     EXPECT_EQ(planner.port().rejected_payloads(), 5u);
 }
 
+// Nothing of it is read but its names, so that its caller can be told.
+TEST(Service, ACallAboveTheCapIsRefusedByName) {
+    auto large = wire_request("large");
+    const Bytes small = payload_of(wire_request("small"));
+    large.mesh().vertices().resize(1000);
+    DdsSettings settings = test::loopback_settings();
+    settings.max_payload_bytes = static_cast<std::uint32_t>(small.size()) + 1000;
+    StubPlanner planner(none, settings);
+    RawClient caller(service_topics());
+    ASSERT_TRUE(caller.wait_matched());
+    ASSERT_NE(caller.call(payload_of(large)), 0u);
+    ASSERT_TRUE(caller.write(with_header(payload_of(large), 5, 6)));
+    ASSERT_NE(caller.call(small), 0u);
+    ASSERT_EQ(caller.wait_for(3).size(), 3u);
+    const auto requests = planner.wait_for(3);
+    ASSERT_EQ(requests.size(), 3u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(requests[i]->identity().request_id, "large");
+        const auto refused = requests[i]->convert({});
+        ASSERT_FALSE(refused.ok());
+        EXPECT_THAT(refused.error().detail, testing::HasSubstr("server.max_payload_bytes"));
+    }
+    EXPECT_EQ(planner.port().rejected_payloads(), 0u);
+}
+
 // ROS 2's reply readers are volatile, and this caller's is made after it has asked.
 TEST(Service, WaitsForTheCallersReader) {
     StubPlanner planner([](const SharedRequest& request) {

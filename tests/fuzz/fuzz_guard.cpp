@@ -150,8 +150,9 @@ SampleInfo info_of_call(bool related) {
 bool take_call(Bytes bytes, bool related) {
     static const auto guard = fresh_guard();
     return take_raw(bytes, [&](dds::Bytes& payload) {
+        const std::uint64_t sent_bytes = payload.size();
         const auto request =
-            dds::read_service_call(std::move(payload), info_of_call(related), *guard);
+            dds::read_service_call({std::move(payload), sent_bytes}, info_of_call(related), *guard);
         if (request == nullptr) return false;
         require(request->call.has_value(), "a call remembers its caller");
         require(request->call->related.has_value() == related, "a call remembers its vendor");
