@@ -1,6 +1,7 @@
 #include "graspd/base/hull_points.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -82,6 +83,7 @@ Triangle read_triangle(qhT* qh, facetT& facet, const std::vector<std::size_t>& c
     FOREACHvertex_(facet.vertices) {
         ids.push_back(static_cast<std::size_t>(qh_pointid(qh, vertex->point)));
     }
+    assert(ids.size() == 3);  // qhull's option Qt
     const Eigen::Vector3d outward(facet.normal[0], facet.normal[1], facet.normal[2]);
     const Eigen::Vector3d turn =
         (points[ids[1]] - points[ids[0]]).cross(points[ids[2]] - points[ids[0]]);

@@ -85,7 +85,7 @@ public:
     void fail(const std::string& key, const Json& value, const std::string& must) {
         constexpr std::size_t kLongest = 80;
         std::string shown = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-        if (shown.size() > kLongest) shown = shown.substr(0, kLongest) + "...";
+        if (shown.size() > kLongest) shown.replace(kLongest, std::string::npos, "...");
         const std::string name = path_of(key);
         fail((name.empty() ? "the whole file" : name) + " = " + shown + " " + must);
     }

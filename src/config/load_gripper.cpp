@@ -192,6 +192,7 @@ Result<Gripper> find_gripper(const std::string& name_or_file,
     if (!grippers.ok()) return grippers.error();
     std::string known;
     for (Gripper& gripper : grippers.value()) {
+        // cppcheck-suppress returnStdMoveLocal ; a reference: without the move it is copied
         if (gripper.name == name_or_file) return std::move(gripper);
         known += (known.empty() ? "" : ", ") + gripper.name;
     }

@@ -136,6 +136,7 @@ std::vector<Loop> loops_of(std::map<std::size_t, std::size_t> next,
         Loop& loop = loops.emplace_back();
         for (auto at = next.begin(); at != next.end();) {
             const std::size_t to = at->second;
+            // cppcheck-suppress invalidContainerReference ; taken anew after each emplace_back
             loop.push_back(points[at->first]);
             next.erase(at);
             at = next.find(to);

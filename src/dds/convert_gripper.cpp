@@ -18,9 +18,9 @@ using Meshes = std::vector<shape_msgs::msg::dds_::Mesh_>;
 /// A member's convex parts; of a mesh the vertices alone count.
 void read_parts(const Meshes& meshes, GripperMember member, const std::string& field,
                 FirstError& errors, std::vector<ConvexPart>& parts) {
-    check_count(meshes.size(), kMostParts, field.c_str(), errors);
+    check_count(meshes.size(), kMostParts, field, errors);
     for (std::size_t i = 0; i < meshes.size() && !errors.any(); ++i) {
-        const std::string path = element(field.c_str(), i);
+        const std::string path = element(field, i);
         const TriangleMesh mesh = read_mesh(meshes[i]);
         const bool finite = std::ranges::all_of(
             mesh.vertices, [](const Eigen::Vector3d& vertex) { return vertex.allFinite(); });
@@ -36,7 +36,7 @@ void read_parts(const Meshes& meshes, GripperMember member, const std::string& f
 
 Gripper read_gripper(const wire::Gripper_& in, const std::string& path, FirstError& errors) {
     check_text(in.name(), path + ".name", {1, kMostName}, errors);
-    check_count(in.pad_travel().size(), kMostTravel, (path + ".pad_travel").c_str(), errors);
+    check_count(in.pad_travel().size(), kMostTravel, path + ".pad_travel", errors);
     Gripper out{.name = in.name(),
                 .min_width_m = in.min_width(),
                 .max_width_m = in.max_width(),

@@ -10,7 +10,7 @@ namespace {
 /// Gives the body's numbers one after the other, whatever the format.
 class PlyNumbers {
 public:
-    PlyNumbers(TextScan scan, PlyFormat format)
+    PlyNumbers(const TextScan& scan, PlyFormat format)
         : scan_(scan), bytes_(scan.rest()), format_(format) {}
 
     /// The next number; nothing when the file ends or holds something else there.

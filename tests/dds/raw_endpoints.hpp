@@ -98,6 +98,12 @@ public:
             return readers_ >= planners && writers_ >= planners;
         });
     }
+    /// Waits until both of its partners have left.
+    bool wait_alone() {
+        std::unique_lock lock(mutex_);
+        return changed_.wait_for(lock, std::chrono::seconds(10),
+                                 [this] { return readers_ == 0 && writers_ == 0; });
+    }
     /// A full history gives way to a volatile writer with a timeout that means "try again".
     bool write(Bytes payload) {
         const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
