@@ -65,7 +65,8 @@ std::vector<Triangle> faces_between(const TriangleMesh& mesh,
         stop_point(faces.size());
         Triangle moved = {heads[face[0]], heads[face[1]], heads[face[2]]};
         if (moved[0] == moved[1] || moved[1] == moved[2] || moved[2] == moved[0]) continue;
-        std::ranges::rotate(moved, std::ranges::min_element(moved));
+        // Not of std::ranges: clang 14 cannot read the subrange that this gives.
+        std::rotate(moved.begin(), std::ranges::min_element(moved), moved.end());
         faces.push_back(moved);
     }
     std::ranges::sort(faces);
