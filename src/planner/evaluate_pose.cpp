@@ -152,7 +152,9 @@ bool Examination::balance() {
         log_.out("grasp/force_balance", 1);
         return true;
     }
-    return miss("slips", evidence.min_friction - evidence.friction, "1", evidence.friction);
+    const double lacking = evidence.min_friction - evidence.friction;
+    if (!std::isfinite(lacking)) return reject("slips");  // no friction holds it: not a near miss
+    return miss("slips", lacking, "1", evidence.friction);
 }
 
 /// Presses the fingers' whole faces on the object and compares the load with what they carry.
