@@ -4,8 +4,8 @@
 
 // The template lies in the program itself, so that a report can be written wherever it runs.
 extern "C" {
-extern const char graspd_report_template_begin[];
-extern const char graspd_report_template_end[];
+extern const char graspd_report_template_begin[];  // NOLINT(readability-identifier-naming)
+extern const char graspd_report_template_end[];    // NOLINT(readability-identifier-naming)
 }
 asm(".pushsection .rodata\n"
     ".global graspd_report_template_begin\n"

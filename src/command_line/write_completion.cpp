@@ -60,10 +60,9 @@ void add_values(ValueBranches& branches, const std::string& command, const Comma
                 std::span<const ListedValues> listed) {
     for (const OptionEntry& option : entry.options) {
         if (option.positional || option.value.empty()) continue;
+        const std::string before = command + " ";
         Words patterns;
-        for (const std::string& name : option.names) {
-            patterns.push_back(quoted(command + " " + name));
-        }
+        for (const std::string& name : option.names) patterns.push_back(quoted(before + name));
         const ListedValues* values = listed_for(option, listed);
         if (values == nullptr && option.choices.empty()) {
             branches.any.insert(branches.any.end(), patterns.begin(), patterns.end());
@@ -111,9 +110,9 @@ std::string zsh_arguments(const CommandEntry& command, std::span<const ListedVal
             continue;
         }
         const std::string value = option.value.empty() ? "" : ":" + option.value + ":" + values;
+        const std::string after = "[" + zsh_text(option.description) + "]" + value;
         for (const std::string& name : option.names) {
-            text +=
-                " \\\n" + indent + quoted(name + "[" + zsh_text(option.description) + "]" + value);
+            text += " \\\n" + indent + quoted(name + after);
         }
     }
     return text + "\n";

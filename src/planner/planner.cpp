@@ -64,7 +64,7 @@ std::optional<Eigen::Vector3d> gravity_P(const PlanRequest& request,
     std::optional<Eigen::Vector3d> down_F = request.options.gravity_F;
     if (!down_F && request.support_plane) down_F = -request.support_plane->normal_F;
     if (!down_F) return std::nullopt;
-    return Eigen::Vector3d(X_FP.linear().transpose() * *down_F);
+    return Eigen::Vector3d(X_FP.linear().transpose() * down_F->normalized());
 }
 
 /// Where the object is and what it weighs: the same whatever limits are planned within.

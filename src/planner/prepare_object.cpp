@@ -127,7 +127,7 @@ Surroundings::Surroundings(const PlanRequest& request, const PreparedObject& obj
     world_.object = {&object.mesh_P, object.tree_P.get()};
     for (const Body& body : bodies_) world_.obstacles.push_back({&body.mesh, body.tree.get()});
     if (request.support_plane) {
-        const Eigen::Vector3d normal = X_WF.linear() * request.support_plane->normal_F;
+        const Eigen::Vector3d normal = X_WF.linear() * request.support_plane->normal_F.normalized();
         world_.plane =
             HalfSpace{normal, request.support_plane->offset_m + normal.dot(X_WF.translation())};
     }

@@ -82,9 +82,10 @@ Grasp in_frame_F(const GradedGrasp& graded, const PlanRequest& request, const Pl
     grasp.X_FG_pregrasp.translation() -= distance_m * approach_F;
     grasp.X_FH = grasp.X_FG * grasp_in_hand(*graded.gripper, graded.width_m).inverse();
     grasp.approach = {approach_F, distance_m};
-    grasp.retreat = {
-        request.support_plane ? request.support_plane->normal_F : Eigen::Vector3d(-approach_F),
-        distance_m};
+    // A normal may be off unit length by rounding.
+    grasp.retreat = {request.support_plane ? request.support_plane->normal_F.normalized()
+                                           : Eigen::Vector3d(-approach_F),
+                     distance_m};
     grasp.width_m = graded.width_m;
     grasp.open_width_m = graded.open_width_m;
     grasp.contacts = {placed(graded.contacts_P[0], X_FP), placed(graded.contacts_P[1], X_FP)};

@@ -140,6 +140,14 @@ TEST(Plan, StaysAboveTheSupportPlane) {
         EXPECT_FALSE(below(grasp));
         EXPECT_LT((grasp.retreat.direction_F - Vector3d::UnitZ()).norm(), 1e-12);
     }
+    // A normal as long as a request may bring it is taken for its direction alone.
+    request.support_plane->normal_F *= 1.0009;
+    const PlanReply longer = planned(request);
+    ASSERT_EQ(longer.grasps.size(), lying.grasps.size());
+    for (std::size_t i = 0; i < lying.grasps.size(); ++i) {
+        EXPECT_EQ(longer.grasps[i].retreat.direction_F, Vector3d::UnitZ());
+        EXPECT_EQ(longer.grasps[i].score, lying.grasps[i].score);
+    }
     // The same in a frame that is turned and shifted as a whole.
     const Eigen::Isometry3d X = test::random_pose(8);
     request.X_FO = X;
