@@ -164,12 +164,14 @@ private:
         }
         Eigen::Index axis = 0;
         const float width = (centers.high - centers.low).head<3>().maxCoeff(&axis);
-        if (depth >= kSahDepth || !(width > 0.0F)) return first + (last - first) / 2;
+        const bool apart = width > 0.0F && std::isfinite(width);
+        if (depth >= kSahDepth || !apart) return first + (last - first) / 2;
         const float low = centers.low[axis];
         const float factor = static_cast<float>(kBins) / width;
         const auto bin_of = [&](const Cluster& cluster) {
-            const int bin = static_cast<int>((cluster.twice_center()[axis] - low) * factor);
-            return std::min(bin, kBins - 1);
+            const float place = (cluster.twice_center()[axis] - low) * factor;
+            if (!(place > 0.0F)) return 0;  // also a NaN: too far for a float
+            return place < static_cast<float>(kBins) ? static_cast<int>(place) : kBins - 1;
         };
         if (part.size() > 1024) stop_point();
         std::array<Box4f, kBins> boxes;

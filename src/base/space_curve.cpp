@@ -10,6 +10,12 @@ namespace {
 
 constexpr int kAxisBits = CurvePlace::kBits / 3;
 
+/// The cell at a place along an axis. What is too far for a float has no place, a NaN: cell 0.
+std::uint32_t cell_at(float place) {
+    constexpr auto kCells = static_cast<float>(1 << kAxisBits);
+    return place >= 0.0F && place < kCells ? static_cast<std::uint32_t>(place) : 0u;
+}
+
 /// Puts two zeros before each of the lowest ten bits.
 std::uint32_t spread_to_every_third(std::uint32_t x) {
     x = (x | (x << 16)) & 0x030000ffu;
@@ -53,7 +59,7 @@ std::vector<CurvePlace> order_on_curve(const std::vector<Eigen::Array4f>& points
         const Eigen::Array4f cell = (points[i] - low) * factor;
         std::uint32_t code = 0;
         for (Eigen::Index axis = 0; axis < 3; ++axis) {
-            code = code << 1 | spread_to_every_third(static_cast<std::uint32_t>(cell[axis]));
+            code = code << 1 | spread_to_every_third(cell_at(cell[axis]));
         }
         places[i] = {code, i};
     }

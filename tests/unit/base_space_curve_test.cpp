@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace graspd {
@@ -35,6 +36,14 @@ TEST(OrderOnCurve, FollowsALine) {
     }
     const std::vector<std::uint32_t> order = numbers(points);
     for (std::uint32_t i = 0; i < 1000; ++i) EXPECT_EQ(order[i] * 7 % 1000, i);
+}
+
+// A double's place may be beyond what a float holds.
+TEST(OrderOnCurve, WhatIsInfinitelyFarHasAPlaceToo) {
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    const std::vector<std::uint32_t> order =
+        numbers({{0, 0, 0, 0}, {kFar, 1, 0, 0}, {-kFar, 2, kFar, 0}, {3, 3, 3, 0}});
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{0, 1, 2, 3}));  // no scale: as they came
 }
 
 TEST(OrderOnCurve, KeepsTheOrderOfEqualPoints) {

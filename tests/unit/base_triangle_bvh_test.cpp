@@ -34,6 +34,20 @@ Vector3d random_vector(std::mt19937_64& random) {
     return {fraction(random), fraction(random), fraction(random)};
 }
 
+// What lies beyond a float's range is in nobody's way, and spoils nothing.
+TEST(TriangleBvh, CornersTooFarForAFloat) {
+    TriangleMesh mesh = test::sphere(0.05, 2000);
+    const TriangleMesh block = test::box({1.0, 1.0, 1.0}, 200);
+    for (const double x_m : {1e200, -1e200}) {
+        const Eigen::Isometry3d far(Eigen::Translation3d(x_m, 1e100, 1e300));
+        mesh = test::joined(mesh, test::moved(block, far));
+    }
+    const TriangleBvh bvh(mesh, 1e-9);
+    const auto hit = bvh.first_hit({0.0, 0.0, 1.0}, -Vector3d::UnitZ(), 2.0);
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_NEAR(hit->distance_m, 0.95, 1e-3);
+}
+
 // The reference: every triangle, by the signs of tetrahedra's volumes in long double, without a
 // tree and without a tolerance.
 using Vector3l = Eigen::Matrix<long double, 3, 1>;
