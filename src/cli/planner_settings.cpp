@@ -8,7 +8,8 @@ Result<PlannerConfig> planner_settings(const std::string& config_file,
                                        const std::string& concavity_method) {
     PlannerConfig config;
     if (!config_file.empty()) {
-        auto loaded = load_config<PlannerConfig>(config_file, {}, {"server", "share", "ros", "supervisor"});
+        auto loaded =
+            load_config<PlannerConfig>(config_file, {}, {"server", "share", "ros", "supervisor"});
         if (!loaded.ok()) return loaded.error();
         config = std::move(loaded).value();
     }

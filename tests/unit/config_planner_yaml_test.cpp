@@ -44,7 +44,8 @@ TEST(PlannerYaml, HoldsExactlyTheKeysOfThePlanner) {
 }
 
 TEST(PlannerYaml, HoldsTheDefaultsAndEveryOneIsInItsRange) {
-    const auto loaded = load_config<PlannerConfig>(kFile, {}, {"server", "share", "ros", "supervisor"});
+    const auto loaded =
+        load_config<PlannerConfig>(kFile, {}, {"server", "share", "ros", "supervisor"});
     ASSERT_TRUE(loaded.ok()) << loaded.error().detail;
     EXPECT_EQ(print_config(loaded.value()), print_config(PlannerConfig{}));
 }
