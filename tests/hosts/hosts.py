@@ -49,10 +49,15 @@ def enter_own_network():
         return True
     user = [] if os.geteuid() == 0 else ["--user", "--map-root-user"]
     unshare = ["unshare", *user, "--net", "--mount"]
-    if subprocess.run([*unshare, "true"], stderr=subprocess.DEVNULL).returncode != 0:
+    own = "mount -t tmpfs tmpfs /run && mount -t tmpfs tmpfs /dev/shm && ip link set lo up"
+    bridge = "ip link add try type bridge && ip link add one type veth peer name two"
+    host = "ip netns add try && ip netns exec try true"
+    tried = subprocess.run([*unshare, "sh", "-c", f"{own} && {bridge} && {host}"],
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    if tried.returncode != 0:
         return False
     os.environ[INSIDE] = "yes"
-    enter = 'mount -t tmpfs tmpfs /run && mount -t tmpfs tmpfs /dev/shm && ip link set lo up && exec "$@"'
+    enter = own + ' && exec "$@"'
     os.execvp("unshare", [*unshare, "sh", "-c", enter, "hosts", sys.executable, "-B", *sys.argv])
 
 
@@ -291,7 +296,7 @@ def main():
     parser.add_argument("--log", help="keep the planners' logs in this folder")
     options = parser.parse_args()
     if not enter_own_network():
-        print("hosts: no namespaces here")
+        print("hosts: no namespaces or no bridges here")
         return 77
     folder = Path(tempfile.mkdtemp(prefix="graspd_hosts_"))
     options.config = str(folder / "planner.yaml")
