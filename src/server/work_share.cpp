@@ -93,8 +93,7 @@ bool WorkShare::tick(Clock::time_point now) {
             serving_.push_back(self_);
             first = take_mine_locked();
         }
-        pass_overdue_locked(now);
-        mine = take_mine_locked();
+        if (pass_overdue_locked(now)) mine = take_mine_locked();
     }
     plan_late(std::move(first), now, false);
     plan_late(std::move(mine), now, true);
@@ -183,8 +182,9 @@ WorkShare::Requests WorkShare::take_mine_locked() {
     return mine;
 }
 
-/// Those whose reply has not come fall to the next.
-void WorkShare::pass_overdue_locked(Clock::time_point now) {
+/// Those whose reply has not come fall to the next. @return whether there are any
+bool WorkShare::pass_overdue_locked(Clock::time_point now) {
+    bool passed = false;
     for (Held& held : held_) {
         if (now < held.due) continue;
         if (const GuidBytes* owner = owner_locked(*held.request, held.silent)) {
@@ -192,7 +192,9 @@ void WorkShare::pass_overdue_locked(Clock::time_point now) {
         }
         held.due = now + (held.due - held.request->received());
         held.request->take_over(now);
+        passed = true;
     }
+    return passed;
 }
 
 /// What was held until now, with its whole time budget.

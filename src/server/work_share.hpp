@@ -86,7 +86,7 @@ private:
     void hold_locked(std::unique_ptr<IncomingRequest> request);
     HeldList::iterator forget_locked(HeldList::iterator held);
     Requests take_mine_locked();
-    void pass_overdue_locked(Clock::time_point now);
+    bool pass_overdue_locked(Clock::time_point now);
     void plan_late(Requests requests, Clock::time_point now, bool taken_over);
 
     const ShareConfig config_;

@@ -17,6 +17,7 @@ using test::RawClient;
 using test::SharedRequest;
 using test::StubPlanner;
 using test::verdict;
+using test::with_header;
 using JazzyResponse = moveit_msgs::srv::dds_::GraspPlanning_Response_;
 using HumbleResponse = moveit_msgs_humble::srv::dds_::GraspPlanning_Response_;
 
@@ -48,17 +49,6 @@ moveit_msgs::srv::dds_::GraspPlanning_Request_ ball(const std::string& id) {
     sphere.type(shape_msgs::msg::dds_::SolidPrimitive__Constants::SPHERE_);
     sphere.dimensions().push_back(0.02);
     return call;
-}
-
-/// As rmw_cyclonedds lays a call out: eight bytes of the client's id and eight of the call's number
-/// behind the encapsulation.
-Bytes with_header(const Bytes& plain, std::uint64_t client, std::uint64_t number) {
-    Bytes out(plain.begin(), plain.begin() + 4);
-    for (const std::uint64_t word : {client, number}) {
-        for (int i = 0; i < 8; ++i) out.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
-    }
-    out.insert(out.end(), plain.begin() + 4, plain.end());
-    return out;
 }
 
 /// One grasp of "hand", whose id says nothing of the call; or the reason why there is none.
