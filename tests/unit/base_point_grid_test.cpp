@@ -46,6 +46,25 @@ TEST(PointGrid, FindsWhatComparingAllFinds) {
     }
 }
 
+// Two clouds a kilometre apart have far too many cells between them for a table of all.
+TEST(PointGrid, PointsFarApartAreFoundToo) {
+    std::mt19937 engine(9);
+    std::uniform_real_distribution<double> number(-0.05, 0.05);
+    std::vector<Vector3d> points;
+    for (int k = 0; k < 300; ++k) {
+        const Vector3d shift = k % 2 == 0 ? Vector3d::Zero() : Vector3d(900.0, -400.0, 100.0);
+        points.push_back(shift + Vector3d(number(engine), number(engine), number(engine)));
+    }
+    const PointGrid grid(points, 0.02);
+    for (const Vector3d& place : points) {
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            if ((points[i] - place).norm() <= 0.02) expected.push_back(i);
+        }
+        EXPECT_EQ(within(grid, place, 0.02), expected);
+    }
+}
+
 TEST(PointGrid, EndsWhenItIsToldTo) {
     const std::vector<Vector3d> points(10, Vector3d::Zero());
     const PointGrid grid(points, 0.01);

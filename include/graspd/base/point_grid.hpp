@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,7 @@ public:
     /// @param points  [m] finite; copied
     /// @param cell_m  [m] > 0, no less than the largest distance that will be asked for and than a
     ///                millionth of the points' extent
-    /// Cost O(N log N).
+    /// Cost O(N), or O(N log N) where there are far more cells than points.
     PointGrid(std::span<const Eigen::Vector3d> points, double cell_m);
 
     /// Calls visit(i) for every point i within `distance_m` <= cell_m of a place, until it returns
@@ -47,11 +48,22 @@ private:
     /// One number a cell; cells that follow each other along z have numbers that do.
     static std::uint64_t key(const Cell& cell);
     /// Places of the points whose cells lie between two of one row.
-    std::pair<std::size_t, std::size_t> row(const Cell& from, const Cell& to) const;
+    std::pair<std::size_t, std::size_t> row(const Cell& from, const Cell& to) const {
+        if (first_.empty()) return searched_row(from, to);
+        if (from.x >= size_.x || from.y >= size_.y || from.z >= size_.z) return {0, 0};
+        const auto begin = static_cast<std::size_t>((from.x * size_.y + from.y) * size_.z);
+        return {first_[begin + static_cast<std::size_t>(from.z)],
+                first_[begin + static_cast<std::size_t>(std::min(to.z + 1, size_.z))]};
+    }
+    std::pair<std::size_t, std::size_t> searched_row(const Cell& from, const Cell& to) const;
+    void sort_in(std::span<const Eigen::Vector3d> points, std::span<const Cell> cells);
+    void sort_by_key(std::span<const Eigen::Vector3d> points, std::span<const Cell> cells);
 
     double cell_m_ = 1.0;
     Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-    std::vector<std::uint64_t> keys_;      ///< rising
+    Cell size_;                            ///< cells along each axis, where there is one for each
+    std::vector<std::uint32_t> first_;     ///< by cell, and the end; empty where they are too many
+    std::vector<std::uint64_t> keys_;      ///< rising; where `first_` is empty
     std::vector<Eigen::Vector3d> points_;  ///< [m] in the order of the keys
     std::vector<std::uint32_t> number_;    ///< of the point at a place
 };
