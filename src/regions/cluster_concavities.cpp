@@ -7,6 +7,7 @@
 #include <string>
 
 #include "graspd/base/disjoint_sets.hpp"
+#include "graspd/base/parallel.hpp"
 #include "graspd/base/plane_points.hpp"
 #include "graspd/base/point_grid.hpp"
 #include "graspd/base/settings.hpp"
@@ -79,17 +80,27 @@ std::vector<Indices> euclidean_clusters(std::span<const SurfaceSample> samples,
     return clusters;
 }
 
-/// The samples among `enlarged` within `reach_m` of a salient one, and every salient one.
+/// The samples among `enlarged` within `reach_m` of a salient one, and every salient one. Both are
+/// rising, so is the result.
 Indices surroundings(std::span<const SurfaceSample> samples, const Indices& salient,
                      const Indices& enlarged, double spacing_m, double reach_m) {
-    const PointGrid grid(points_of(samples, salient), std::max(reach_m, spacing_m));
-    Indices around;
-    for (const std::uint32_t i : enlarged) {
+    const auto points = points_of(samples, salient);
+    const PointGrid grid(points, std::max(reach_m, spacing_m));
+    Eigen::AlignedBox3d near;
+    for (const Eigen::Vector3d& point : points) near.extend(point);
+    // A little more than the reach: the distance decides, the box only saves asking for it.
+    const Eigen::Vector3d pad = Eigen::Vector3d::Constant(reach_m * kTie);
+    near = Eigen::AlignedBox3d(near.min() - pad, near.max() + pad);
+    Indices outside, around;
+    std::ranges::set_difference(enlarged, salient, std::back_inserter(outside));
+    for (const std::uint32_t i : outside) {
+        if (!near.contains(samples[i].point)) continue;
         const bool far =
             grid.each_within(samples[i].point, reach_m, [](std::uint32_t) { return false; });
         if (!far) around.push_back(i);
     }
     Indices all;
+    all.reserve(salient.size() + around.size());
     std::ranges::set_union(salient, around, std::back_inserter(all));
     return all;
 }
@@ -117,11 +128,13 @@ std::vector<Concavity> find_concavities(std::span<const SurfaceSample> samples,
     if (concavities.size() > config.max_concavities) concavities.resize(config.max_concavities);
     Indices enlarged = areas.enlarged;
     std::ranges::sort(enlarged);
-    for (Concavity& concavity : concavities) {
-        stop_point();
-        concavity.enlarged = surroundings(samples, concavity.salient, enlarged, spacing_m,
-                                          config.enlargement_spacings * spacing_m * kTie);
-    }
+    for_blocks(concavities.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            Concavity& concavity = concavities[i];
+            concavity.enlarged = surroundings(samples, concavity.salient, enlarged, spacing_m,
+                                              config.enlargement_spacings * spacing_m * kTie);
+        }
+    });
     return concavities;
 }
 
