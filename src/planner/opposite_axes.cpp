@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "graspd/base/point_grid.hpp"
 #include "graspd/base/stop.hpp"
 
 namespace graspd::planner_detail {
@@ -13,10 +14,10 @@ class RegionIndex {
 public:
     RegionIndex(const std::vector<Concavity>& regions, const SurfaceSamples& surface,
                 double least_depth_m)
-        : regions_(regions),
-          surface_(surface),
-          reach_m_(2.0 * surface.spacing_m),
-          least_depth_m_(least_depth_m) {
+        : reach_m_(2.0 * surface.spacing_m),
+          least_depth_m_(least_depth_m),
+          places_(salient_places(regions, surface)),
+          grid_(places_.points, reach_m_) {
         for (const Concavity& region : regions) {
             Eigen::AlignedBox3d box;
             for (const std::uint32_t i : region.salient) box.extend(surface.samples[i].point);
@@ -33,20 +34,40 @@ public:
     }
 
 private:
-    std::int32_t at(const Eigen::Vector3d& place) const {
-        for (std::size_t r = 0; r < regions_.size(); ++r) {
-            if (!boxes_[r].contains(place)) continue;
-            const bool near = std::ranges::any_of(regions_[r].salient, [&](std::uint32_t i) {
-                return (surface_.samples[i].point - place).squaredNorm() <= reach_m_ * reach_m_;
-            });
-            if (near) return static_cast<std::int32_t>(r);
+    /// The salient samples, each with the deepest of its regions.
+    struct SalientPlaces {
+        std::vector<Eigen::Vector3d> points;
+        std::vector<std::int32_t> region;
+    };
+    static SalientPlaces salient_places(const std::vector<Concavity>& regions,
+                                        const SurfaceSamples& surface) {
+        std::vector<std::int32_t> deepest(surface.samples.size(), -1);
+        for (std::size_t r = regions.size(); r-- > 0;) {
+            for (const std::uint32_t i : regions[r].salient) {
+                deepest[i] = static_cast<std::int32_t>(r);
+            }
         }
-        return -1;
+        SalientPlaces places;
+        for (std::size_t i = 0; i < deepest.size(); ++i) {
+            if (deepest[i] < 0) continue;
+            places.points.push_back(surface.samples[i].point);
+            places.region.push_back(deepest[i]);
+        }
+        return places;
+    }
+    std::int32_t at(const Eigen::Vector3d& place) const {
+        std::int32_t deepest = -1;
+        grid_.each_within(place, reach_m_, [&](std::uint32_t i) {
+            const std::int32_t region = places_.region[i];
+            if (deepest < 0 || region < deepest) deepest = region;
+            return deepest != 0;
+        });
+        return deepest;
     }
     std::int32_t nearest(const Eigen::Vector3d& place) const {
         std::int32_t best = -1;
         double least = std::numeric_limits<double>::infinity();
-        for (std::size_t r = 0; r < regions_.size(); ++r) {
+        for (std::size_t r = 0; r < boxes_.size(); ++r) {
             const double distance = boxes_[r].squaredExteriorDistance(place);
             if (distance >= least) continue;
             least = distance;
@@ -55,9 +76,9 @@ private:
         return best;
     }
 
-    const std::vector<Concavity>& regions_;
-    const SurfaceSamples& surface_;
     double reach_m_, least_depth_m_;
+    SalientPlaces places_;
+    PointGrid grid_;
     std::vector<Eigen::AlignedBox3d> boxes_;
 };
 
