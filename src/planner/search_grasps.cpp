@@ -22,17 +22,29 @@ struct Attempt {
     std::uint32_t poses = 0;  ///< that were checked in full
 };
 
-/// Evaluates the poses of one axis.
+/// Evaluates the poses of one axis, a few at a time side by side: a batch whose axes have very
+/// different numbers of poses then keeps all threads at work.
 Attempt try_axis(const ClosingAxis& axis, const Judgement& judgement) {
     constexpr const char* kPoses = "planner/find_poses";
+    constexpr std::size_t kAtATime = 4;
     Attempt attempt{{}, Rejections(judgement.traced), {}, 0};
     const auto poses =
         attempt.log.run(kPoses, 1, [&] { return find_poses(axis, judgement, attempt.rejections); });
     attempt.log.out(kPoses, poses.size());
     attempt.poses = static_cast<std::uint32_t>(poses.size());
-    for (const ApproachPose& pose : poses) {
-        auto grasp = evaluate_pose(axis, pose, judgement, attempt.rejections, attempt.log);
-        if (grasp) attempt.grasps.push_back(std::move(*grasp));
+    std::vector<Attempt> parts((poses.size() + kAtATime - 1) / kAtATime);
+    for_blocks(poses.size(), kAtATime, [&](std::size_t first, std::size_t last) {
+        Attempt& part = parts[first / kAtATime];
+        part.rejections = Rejections(judgement.traced);
+        for (std::size_t i = first; i < last; ++i) {
+            auto grasp = evaluate_pose(axis, poses[i], judgement, part.rejections, part.log);
+            if (grasp) part.grasps.push_back(std::move(*grasp));
+        }
+    });
+    for (Attempt& part : parts) {
+        std::ranges::move(part.grasps, std::back_inserter(attempt.grasps));
+        attempt.rejections.merge(part.rejections);
+        attempt.log.merge(part.log);
     }
     return attempt;
 }
