@@ -135,10 +135,7 @@ public:
     Rounds(const Judgement& judgement, StageLog& log, SearchResult& result)
         : judgement_(judgement), log_(log), result_(result) {}
 
-    bool wanted(GraspSource source) const {
-        const unsigned sources = judgement_.request.options.sources;
-        return sources == 0 || (sources & source) != 0;
-    }
+    bool wanted(GraspSource source) const { return is_wanted(source, judgement_.request.options); }
     void run(std::vector<ClosingAxis> axes);
     /// Counts axes of a source that the request does not ask for.
     void leave_out(const std::vector<ClosingAxis>& axes) {
@@ -170,14 +167,13 @@ void Rounds::run(std::vector<ClosingAxis> axes) {
 
 /// The paper's candidates of all concavities, each concavity on a thread of its own.
 /// @param boundaries  filled where candidates are traced
-std::vector<std::vector<ClosingAxis>> axes_of(const std::vector<Concavity>& concavities,
-                                              const SurfaceSamples& surface,
-                                              const Judgement& judgement, StageLog& log,
+std::vector<std::vector<ClosingAxis>> axes_of(const SeenSurface& seen, const Judgement& judgement,
+                                              StageLog& log,
                                               std::vector<TracedBoundary>& boundaries) {
-    std::vector<std::vector<ClosingAxis>> axes(concavities.size());
-    std::vector<std::vector<TracedBoundary>> traces(concavities.size());
-    each_logged(concavities.size(), log, [&](std::size_t i, StageLog& part) {
-        axes[i] = boundary_axes(concavities[i], static_cast<std::int32_t>(i), surface,
+    std::vector<std::vector<ClosingAxis>> axes(seen.concavities.size());
+    std::vector<std::vector<TracedBoundary>> traces(seen.concavities.size());
+    each_logged(axes.size(), log, [&](std::size_t i, StageLog& part) {
+        axes[i] = boundary_axes(seen.concavities[i], static_cast<std::int32_t>(i), seen.surface,
                                 judgement.object, judgement.gripper, judgement.config, part,
                                 judgement.traced ? &traces[i] : nullptr);
     });
@@ -189,18 +185,24 @@ std::vector<std::vector<ClosingAxis>> axes_of(const std::vector<Concavity>& conc
 /// @param boundaries  filled where candidates are traced
 void search(Rounds& rounds, const Judgement& judgement, const SeenSurface& seen, StageLog& log,
             std::vector<TracedBoundary>& boundaries) {
-    const auto& [surface, concavities] = seen;
-    if (rounds.wanted(kBoundary)) {
-        for (auto& axes : axes_of(concavities, surface, judgement, log, boundaries)) {
-            rounds.run(std::move(axes));
-        }
-    }
-    if (!rounds.wanted(kWall) && !rounds.wanted(kWholeObject)) return;
-    const auto axes = opposite_axes(concavities, surface, judgement.object, judgement.gripper,
-                                    judgement.config, log);
+    const bool along = rounds.wanted(kBoundary);
+    const bool across = rounds.wanted(kWall) || rounds.wanted(kWholeObject);
+    std::vector<std::vector<ClosingAxis>> of_concavities;
+    std::vector<ClosingAxis> opposite;
+    run_together({[&] {
+                      if (along) of_concavities = axes_of(seen, judgement, log, boundaries);
+                  },
+                  [&] {
+                      if (!across) return;
+                      opposite = opposite_axes(seen, judgement.object, judgement.gripper,
+                                               judgement.config);
+                  }});
+    for (auto& axes : of_concavities) rounds.run(std::move(axes));
+    if (!across) return;
+    if (seen.across) log.merge(seen.across->log);
     for (const GraspSource source : {kWall, kWholeObject}) {
         std::vector<ClosingAxis> of_source;
-        std::ranges::copy_if(axes, std::back_inserter(of_source),
+        std::ranges::copy_if(opposite, std::back_inserter(of_source),
                              [&](const ClosingAxis& a) { return a.source == source; });
         if (rounds.wanted(source)) {
             rounds.run(std::move(of_source));
@@ -211,6 +213,11 @@ void search(Rounds& rounds, const Judgement& judgement, const SeenSurface& seen,
 }
 
 }  // namespace
+
+bool is_wanted(GraspSource source, const PlanOptions& options) {
+    const unsigned sources = options.sources;
+    return sources == 0 || (sources & source) != 0;
+}
 
 SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen, StageLog& log) {
     SearchResult result{{}, Rejections(judgement.traced), {}, {}};
