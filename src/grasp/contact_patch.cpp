@@ -28,22 +28,29 @@ double half_extent_m(double variance, double cell_m) {
 ContactPatch press(const std::vector<LineHit>& seen, const FingerFace& face,
                    const ContactPatchConfig& config) {
     const double first_m = std::ranges::min(seen, {}, &LineHit::advance_m).advance_m;
-    const auto pressure = [&](const LineHit& cell) {
-        return std::max(0.0, 1.0 - (cell.advance_m - first_m) / config.compression_m);
+    struct Pressed {
+        double pressure;
+        const LineHit* cell;
     };
+    std::vector<Pressed> pressed;  // the others add nothing
+    pressed.reserve(seen.size());
+    for (const LineHit& cell : seen) {
+        const double pressure = 1.0 - (cell.advance_m - first_m) / config.compression_m;
+        if (pressure > 0.0) pressed.push_back({pressure, &cell});
+    }
     ContactPatch patch;
     double sum = 0.0;
-    for (const LineHit& cell : seen) {
-        sum += pressure(cell);
-        patch.center_G += pressure(cell) * cell.point_G;
+    for (const auto& [pressure, cell] : pressed) {
+        sum += pressure;
+        patch.center_G += pressure * cell->point_G;
     }
     patch.center_G /= sum;
     Eigen::Vector3d variance = Eigen::Vector3d::Zero();
     double radius = 0.0;
-    for (const LineHit& cell : seen) {
-        const Eigen::Vector3d off = cell.point_G - patch.center_G;
-        variance += pressure(cell) * off.cwiseAbs2();
-        radius += pressure(cell) * std::hypot(off.y(), off.z());
+    for (const auto& [pressure, cell] : pressed) {
+        const Eigen::Vector3d off = cell->point_G - patch.center_G;
+        variance += pressure * off.cwiseAbs2();
+        radius += pressure * std::hypot(off.y(), off.z());
     }
     const double cell_y_m = 2.0 * face.half_width_m / config.lines_across;
     const double cell_z_m = (face.to_z_m - face.from_z_m) / config.lines_along;

@@ -9,11 +9,7 @@
 namespace graspd {
 namespace {
 
-/// A place where a line along Gx enters the object, seen from one side.
-struct Seen {
-    Eigen::Vector3d point_G;
-    Eigen::Vector3d normal_G;
-};
+using grasp_detail::LineHit;
 
 std::vector<double> middles_of_cells(std::uint32_t count, double half_m) {
     std::vector<double> middles;
@@ -23,44 +19,28 @@ std::vector<double> middles_of_cells(std::uint32_t count, double half_m) {
     return middles;
 }
 
-/// Lines along one direction of Gx; `side` is -1 for the pad that comes from -Gx.
-/// None when a line begins inside the object: the pad cannot stand there.
-std::optional<std::vector<Seen>> look(const TriangleMesh& mesh, const TriangleBvh& tree,
-                                      const Eigen::Isometry3d& X_WG, const PadFootprint& pad,
-                                      const LocalCloudConfig& config, double side) {
-    const auto hits = grasp_detail::closing_lines(
-        tree, X_WG, middles_of_cells(config.lines_across, pad.half_width_m),
-        middles_of_cells(config.lines_along, pad.half_height_m), pad.half_reach_m, side);
-    if (!hits) return std::nullopt;
-    const Eigen::Matrix3d R_GW = X_WG.linear().transpose();
-    std::vector<Seen> seen;
-    seen.reserve(hits->size());
-    for (const grasp_detail::LineHit& hit : *hits) {
-        seen.push_back({hit.point_G, R_GW * face_normal(mesh, hit.face)});
-    }
-    return seen;
-}
-
-/// The first touch of a pad and the mean of what lies within its depth.
-std::optional<PadTouch> touch_of(const std::vector<Seen>& seen, double side, double max_depth_m,
-                                 double lines) {
+/// The first touch of a pad and the mean of what lies within its depth; its share is the number of
+/// lines that touch.
+std::optional<PadTouch> touch_of(const std::vector<LineHit>& seen, double side, double max_depth_m,
+                                 const TriangleMesh& mesh, const Eigen::Matrix3d& R_GW) {
     if (seen.empty()) return std::nullopt;
-    const auto outward = [&](const Seen& s) { return side * s.point_G.x(); };
+    const auto outward = [&](const LineHit& hit) { return side * hit.point_G.x(); };
     double first = outward(seen.front());
-    for (const Seen& s : seen) first = std::max(first, outward(s));
+    for (const LineHit& hit : seen) first = std::max(first, outward(hit));
     PadTouch touch{side * first, {}, {}, 0.0};
     touch.point_G.setZero();
     touch.normal_G.setZero();
     double count = 0.0;
-    for (const Seen& s : seen) {
-        if (first - outward(s) > max_depth_m) continue;
-        touch.point_G += s.point_G;
-        touch.normal_G += s.normal_G;
+    for (const LineHit& hit : seen) {
+        if (first - outward(hit) > max_depth_m) continue;
+        const Eigen::Vector3d normal_G = R_GW * face_normal(mesh, hit.face);
+        touch.point_G += hit.point_G;
+        touch.normal_G += normal_G;
         count += 1.0;
     }
     touch.point_G /= count;
     touch.normal_G = touch.normal_G.stableNormalized();
-    touch.share = count / lines;
+    touch.share = count;
     return touch;
 }
 
@@ -70,21 +50,31 @@ Result<LocalCloud> local_cloud(const TriangleMesh& object_W, const TriangleBvh& 
                                const Eigen::Isometry3d& X_WG, const PadFootprint& footprint,
                                const LocalCloudConfig& config) {
     if (auto bad = validate(config, "local_cloud.")) return *bad;
-    const auto left = look(object_W, tree_W, X_WG, footprint, config, -1.0);
-    if (!left) return PlanError{PlanErrorCode::kDegenerate, "the left pad begins in the object"};
-    const auto right = look(object_W, tree_W, X_WG, footprint, config, 1.0);
-    if (!right) return PlanError{PlanErrorCode::kDegenerate, "the right pad begins in the object"};
-    const double lines = static_cast<double>(config.lines_across) * config.lines_along;
-    const auto left_touch = touch_of(*left, -1.0, config.max_depth_m, lines);
-    const auto right_touch = touch_of(*right, 1.0, config.max_depth_m, lines);
-    if (!left_touch || !right_touch) {
-        return PlanError{PlanErrorCode::kDegenerate, "a pad meets nothing"};
+    const auto y_G = middles_of_cells(config.lines_across, footprint.half_width_m);
+    const auto z_G = middles_of_cells(config.lines_along, footprint.half_height_m);
+    // None when a line begins inside the object: the pad cannot stand there.
+    const auto look = [&](double side) {
+        return grasp_detail::closing_lines(tree_W, X_WG, y_G, z_G, footprint.half_reach_m, side);
+    };
+    const auto left_lines = look(-1.0);
+    if (!left_lines) {
+        return PlanError{PlanErrorCode::kDegenerate, "the left pad begins in the object"};
     }
-    LocalCloud cloud{
-        {}, *left_touch, *right_touch, 2.0 * footprint.half_width_m / config.lines_across};
-    cloud.points_G.reserve(left->size() + right->size());
-    for (const Seen& s : *left) cloud.points_G.push_back(s.point_G);
-    for (const Seen& s : *right) cloud.points_G.push_back(s.point_G);
+    const auto right_lines = look(1.0);
+    if (!right_lines) {
+        return PlanError{PlanErrorCode::kDegenerate, "the right pad begins in the object"};
+    }
+    const Eigen::Matrix3d R_GW = X_WG.linear().transpose();
+    auto left = touch_of(*left_lines, -1.0, config.max_depth_m, object_W, R_GW);
+    auto right = touch_of(*right_lines, 1.0, config.max_depth_m, object_W, R_GW);
+    if (!left || !right) return PlanError{PlanErrorCode::kDegenerate, "a pad meets nothing"};
+    const double lines = static_cast<double>(config.lines_across) * config.lines_along;
+    for (PadTouch* touch : {&*left, &*right}) touch->share /= lines;
+    LocalCloud cloud{{}, *left, *right, 2.0 * footprint.half_width_m / config.lines_across};
+    cloud.points_G.reserve(left_lines->size() + right_lines->size());
+    for (const auto* seen : {&*left_lines, &*right_lines}) {
+        for (const LineHit& hit : *seen) cloud.points_G.push_back(hit.point_G);
+    }
     return cloud;
 }
 
