@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "graspd/base/parallel.hpp"
 #include "graspd/base/plane_points.hpp"
 #include "graspd/base/settings.hpp"
 #include "graspd/base/stop.hpp"
@@ -134,6 +135,18 @@ double choose_spacing(std::span<const Face> faces, double configured_m, double m
     return configured_m * (1.0 + kGrowthStep * std::max(0.0, steps));
 }
 
+std::pair<double, double> extent(const Face& face, int axis) {
+    const auto [low, high] =
+        std::minmax({face.corner[0][axis], face.corner[1][axis], face.corner[2][axis]});
+    return {low, high};
+}
+
+/// Rows that the face spans, at most.
+double rows_of(const Face& face, double spacing_m) {
+    const auto [low, high] = extent(face, (face.axis + 2) % 3);
+    return (high - low) / spacing_m + 2.0;
+}
+
 /// Grid lines that meet faces. Every row of a face is cut by exactly two of its edges, and an
 /// edge's cut is computed from its lower end, so that both faces at an edge get the same number:
 /// [left, right) then counts each line once.
@@ -143,18 +156,8 @@ public:
         : spacing_m_(spacing_m), samples_(samples) {}
 
     void scan(const Face& face);
-    /// Rows that the face spans, at most.
-    double rows(const Face& face) const {
-        const auto [low, high] = extent(face, (face.axis + 2) % 3);
-        return (high - low) / spacing_m_ + 2.0;
-    }
 
 private:
-    static std::pair<double, double> extent(const Face& face, int axis) {
-        const auto [low, high] =
-            std::minmax({face.corner[0][axis], face.corner[1][axis], face.corner[2][axis]});
-        return {low, high};
-    }
     double first_line(double from) const { return std::floor(from / spacing_m_ - 0.5); }
     double line_at(double index) const { return (index + 0.5) * spacing_m_; }
     void scan_row(const Face& face, double row);
@@ -227,6 +230,36 @@ void Scanner::emit(const Face& face, double u, double v) {
     samples_.push_back(sample);
 }
 
+constexpr std::size_t kFacesAtATime = 2048;
+
+std::vector<Face> make_faces(const TriangleMesh& mesh, std::span<const double> value_m) {
+    std::vector<Face> faces(mesh.faces.size());
+    for_blocks(faces.size(), kFacesAtATime, [&](std::size_t first, std::size_t last) {
+        for (std::size_t f = first; f < last; ++f) {
+            faces[f] = make_face(mesh, value_m, mesh.faces[f]);
+        }
+    });
+    return faces;
+}
+
+/// Samples in the order of the faces.
+std::vector<SurfaceSample> scan_faces(std::span<const Face> faces, double spacing_m) {
+    std::vector<std::vector<SurfaceSample>> parts((faces.size() + kFacesAtATime - 1) /
+                                                  kFacesAtATime);
+    for_blocks(faces.size(), kFacesAtATime, [&](std::size_t first, std::size_t last) {
+        Scanner scanner(spacing_m, parts[first / kFacesAtATime]);
+        for (std::size_t f = first; f < last; ++f) {
+            stop_point(f - first);
+            if (faces[f].area_m2 > 0.0) scanner.scan(faces[f]);
+        }
+    });
+    std::vector<SurfaceSample> samples = std::move(parts.front());
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        samples.insert(samples.end(), parts[i].begin(), parts[i].end());
+    }
+    return samples;
+}
+
 /// A sample and what it is ordered by: its point, then its normal, each rounded. What differs by
 /// rounding alone stands in the order of what differs in earnest, so that a turned object has its
 /// samples in the same order.
@@ -264,13 +297,10 @@ std::vector<SurfaceSample> in_order(const std::vector<SurfaceSample>& samples, d
 Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::span<const double> value_m,
                                       double finger_width_m, const SampleSurfaceConfig& config) {
     if (auto bad = check_input(mesh, value_m, finger_width_m, config)) return *bad;
-    std::vector<Face> faces;
-    faces.reserve(mesh.faces.size());
+    const std::vector<Face> faces = make_faces(mesh, value_m);
     double reach_m = 0.0;
-    for (const Triangle& t : mesh.faces) {
-        stop_point(faces.size());
-        faces.push_back(make_face(mesh, value_m, t));
-        for (const Eigen::Vector3d& corner : faces.back().corner) {
+    for (const Face& face : faces) {
+        for (const Eigen::Vector3d& corner : face.corner) {
             reach_m = std::max(reach_m, corner.lpNorm<Eigen::Infinity>());
         }
     }
@@ -283,18 +313,13 @@ Result<SurfaceSamples> sample_surface(const TriangleMesh& mesh, std::span<const 
              << surface.spacing_m << " m";
         return error(PlanErrorCode::kInvalidInput, text.str());
     }
-    Scanner scanner(surface.spacing_m, surface.samples);
     double rows = 0.0;
-    for (const Face& face : faces) rows += scanner.rows(face);
+    for (const Face& face : faces) rows += rows_of(face, surface.spacing_m);
     if (rows > kMaxRows) {
         return error(PlanErrorCode::kTooLarge,
                      "the faces span " + std::to_string(rows) + " grid rows, more than 1e8");
     }
-    std::size_t step = 0;
-    for (const Face& face : faces) {
-        stop_point(step++);
-        if (face.area_m2 > 0.0) scanner.scan(face);
-    }
+    surface.samples = scan_faces(faces, surface.spacing_m);
     if (surface.samples.empty()) {
         return error(PlanErrorCode::kDegenerate, "no line of the grid meets the surface; spacing " +
                                                      std::to_string(surface.spacing_m) + " m");

@@ -30,7 +30,7 @@ std::optional<PlanError> draw_regions(const PlanSubject& subject, const Gripper&
                                       const PlannerConfig& config, std::uint32_t most_points,
                                       PlanPicture& picture) {
     StageLog log;
-    const auto seen = see_surface(*subject.object, gripper, config, log);
+    const auto seen = see_surface(*subject.object, gripper, config, false, log);
     if (!seen) return seen.error();
     picture.spacing_m = seen.value().surface.spacing_m;
     picture.deepest_m = std::max(

@@ -70,16 +70,26 @@ Result<std::vector<Concavity>> find_concavities(const SurfaceSamples& surface,
 }
 
 Result<SeenSurface> see_surface(const PreparedObject& object, const Gripper& gripper,
-                                const PlannerConfig& config, StageLog& log) {
-    auto surface = log.run("mesh/sample_surface", object.mesh_P.faces.size(), [&] {
-        return sample_surface(object.mesh_P, object.field.value_m, gripper.finger_width_m,
-                              config.sample_surface);
-    });
-    if (!surface) return surface.error();
-    log.out("mesh/sample_surface", surface.value().samples.size());
-    auto concavities = find_concavities(surface.value(), gripper.finger_thickness_m, config, log);
-    if (!concavities) return concavities.error();
-    return SeenSurface{std::move(surface).value(), std::move(concavities).value()};
+                                const PlannerConfig& config, bool across_too, StageLog& log) {
+    SeenSurface seen;
+    std::optional<PlanError> bad;
+    const auto look_along = [&] {
+        auto surface = log.run("mesh/sample_surface", object.mesh_P.faces.size(), [&] {
+            return sample_surface(object.mesh_P, object.field.value_m, gripper.finger_width_m,
+                                  config.sample_surface);
+        });
+        if (!surface) return void(bad = surface.error());
+        seen.surface = std::move(surface).value();
+        log.out("mesh/sample_surface", seen.surface.samples.size());
+        auto concavities = find_concavities(seen.surface, gripper.finger_thickness_m, config, log);
+        if (!concavities) return void(bad = concavities.error());
+        seen.concavities = std::move(concavities).value();
+    };
+    run_together({look_along, [&] {
+                      if (across_too) seen.across = look_across(object, gripper, config);
+                  }});
+    if (bad) return *bad;
+    return seen;
 }
 
 }  // namespace graspd::planner_detail

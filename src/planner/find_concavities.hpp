@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "across_solid.hpp"
 #include "graspd/mesh/sample_surface.hpp"
 #include "graspd/planner/planner_config.hpp"
 #include "prepare_object.hpp"
@@ -22,9 +24,11 @@ Result<std::vector<Concavity>> find_concavities(const SurfaceSamples& surface,
 struct SeenSurface {
     SurfaceSamples surface;
     std::vector<Concavity> concavities;  ///< of `surface`, deepest first
+    std::optional<AcrossSolid> across;   ///< once somebody wanted it
 };
-/// Samples the surface as finely as a finger is wide, and finds its concavities.
+/// Samples the surface as finely as a finger is wide, and finds its concavities; beside that, where
+/// it is wanted, looks across the solid.
 Result<SeenSurface> see_surface(const PreparedObject& object, const Gripper& gripper,
-                                const PlannerConfig& config, StageLog& log);
+                                const PlannerConfig& config, bool across_too, StageLog& log);
 
 }  // namespace graspd::planner_detail

@@ -105,30 +105,15 @@ Eigen::Vector3d inward_direction(const Eigen::Vector3d& middle, const Eigen::Vec
 
 }  // namespace
 
-std::vector<ClosingAxis> opposite_axes(const std::vector<Concavity>& regions,
-                                       const SurfaceSamples& surface, const PreparedObject& object,
-                                       const Gripper& gripper, const PlannerConfig& config,
-                                       StageLog& log) {
-    constexpr const char* kOpposite = "grasp/opposite_candidates";
-    SampleSurfaceConfig coarse = config.sample_surface;
-    coarse.max_samples = config.search.probe_samples;
-    const auto probes =
-        sample_surface(object.mesh_P, object.field.value_m, gripper.finger_width_m, coarse);
-    if (!probes) return {};
-    const auto candidates = log.run(kOpposite, probes.value().samples.size(), [&] {
-        // Beyond the opening too, so that what is too wide is counted as such later.
-        return opposite_candidates(probes.value().samples, object.mesh_P, *object.tree_P,
-                                   std::max(gripper.max_width_m, mesh_diagonal_m(object.mesh_P)),
-                                   config.opposite_candidates);
-    });
-    if (!candidates) return {};
-    log.out(kOpposite, candidates.value().size());
-
+std::vector<ClosingAxis> opposite_axes(const SeenSurface& seen, const PreparedObject& object,
+                                       const Gripper& gripper, const PlannerConfig& config) {
+    if (!seen.across) return {};
+    const std::vector<Concavity>& regions = seen.concavities;
     const RegionIndex index(
-        regions, surface,
+        regions, seen.surface,
         config.extract_concave_areas.min_depth_finger_thicknesses * gripper.finger_thickness_m);
     std::vector<ClosingAxis> axes;
-    for (const OppositeCandidate& candidate : candidates.value()) {
+    for (const OppositeCandidate& candidate : seen.across->candidates) {
         stop_point(axes.size());
         ClosingAxis axis;
         axis.left_P = candidate.left_O;
@@ -136,7 +121,7 @@ std::vector<ClosingAxis> opposite_axes(const std::vector<Concavity>& regions,
         const Eigen::Vector3d closing = (axis.right_P - axis.left_P).normalized();
         axis.reference_P = inward_direction(0.5 * (axis.left_P + axis.right_P), closing);
         axis.concavity =
-            index.of(axis.left_P, probes.value().samples[candidate.sample].concavity_m);
+            index.of(axis.left_P, seen.across->probes.samples[candidate.sample].concavity_m);
         if (axis.concavity < 0) {
             axis.concavity = index.of(axis.right_P, concavity_at(object, candidate.right_face));
         }

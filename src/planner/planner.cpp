@@ -106,10 +106,14 @@ Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const Planne
     for (std::size_t i = 0; i < request.grippers.size() && !found.stopped; ++i) {
         const Gripper& gripper = request.grippers[i];
         const bool searches = request.candidates_FH.empty();
+        const bool across =
+            is_wanted(kWall, request.options) || is_wanted(kWholeObject, request.options);
         if (searches && scene.seen.size() == i) {
-            auto seen = see_surface(scene.object, gripper, config, log);
+            auto seen = see_surface(scene.object, gripper, config, across, log);
             if (!seen) return seen.error();
             scene.seen.push_back(std::move(seen).value());
+        } else if (searches && across && !scene.seen[i].across) {
+            scene.seen[i].across = look_across(scene.object, gripper, config);
         }
         const Judgement judgement = judgement_of(request, scene, gripper, config, traced);
         auto of_gripper = searches ? search_grasps(judgement, scene.seen[i], log)

@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "evaluate_pose.hpp"
+#include "graspd/base/parallel.hpp"
 
 namespace graspd::planner_detail {
 namespace {
@@ -63,12 +64,18 @@ PoseTolerance pose_tolerance(const Grasp& grasp, const Judgement& judgement) {
     const SearchConfig& search = judgement.config.search;
     const ErrorTrial trial(grasp, judgement);
     PoseTolerance tolerance;
-    tolerance.shift_m = greatest(search.tolerance_shift_m, search.tolerance_halvings,
-                                 [&](double shift_m) { return trial.stands_shift(shift_m); });
+    run_together({[&] {
+                      tolerance.shift_m =
+                          greatest(search.tolerance_shift_m, search.tolerance_halvings,
+                                   [&](double shift_m) { return trial.stands_shift(shift_m); });
+                  },
+                  [&] {
+                      tolerance.turn_rad =
+                          greatest(search.tolerance_turn_rad, search.tolerance_halvings,
+                                   [&](double turn_rad) { return trial.stands_turn(turn_rad); });
+                  }});
     tolerance.shift_m =
         std::min(tolerance.shift_m, std::max(0.0, 0.5 * (grasp.open_width_m - grasp.width_m)));
-    tolerance.turn_rad = greatest(search.tolerance_turn_rad, search.tolerance_halvings,
-                                  [&](double turn_rad) { return trial.stands_turn(turn_rad); });
     return tolerance;
 }
 

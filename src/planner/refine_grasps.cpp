@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "graspd/base/parallel.hpp"
 
@@ -24,50 +25,62 @@ std::vector<Eigen::Isometry3d> neighbours(const Eigen::Isometry3d& X_PG, double 
     return poses;
 }
 
-/// @return whether it was improved
-bool refine(GradedGrasp& grasp, const Judgement& judgement) {
-    const SearchConfig& search = judgement.config.search;
-    double shift_m = search.refine_shift_m, turn_rad = search.refine_turn_rad;
-    bool improved = false;
-    for (std::uint32_t round = 0; round < search.refine_rounds; ++round) {
-        std::optional<GradedGrasp> best;
-        for (const Eigen::Isometry3d& X_PG : neighbours(grasp.X_PG, shift_m, turn_rad)) {
-            Rejections unused;
-            StageLog untold;
-            auto moved =
-                evaluate_pose(axis_through(X_PG, grasp.width_m), {}, judgement, unused, untold);
-            const double least = best ? best->score.score : grasp.score.score;
-            if (moved && moved->score.score > least + kLeastGain) best = std::move(moved);
-        }
-        if (best) {
-            best->axis = grasp.axis;
-            grasp = std::move(*best);
-            improved = true;
-        }
-        shift_m *= 0.5;
-        turn_rad *= 0.5;
+/// The grasp moved to a pose, where it holds.
+std::optional<GradedGrasp> moved_to(const Eigen::Isometry3d& X_PG, const GradedGrasp& grasp,
+                                    const Judgement& judgement) {
+    Rejections unused;
+    StageLog untold;
+    return evaluate_pose(axis_through(X_PG, grasp.width_m), {}, judgement, unused, untold);
+}
+
+/// One round of all grasps, all of their moves side by side. Notes what was improved.
+void refine(std::span<GradedGrasp> grasps, double shift_m, double turn_rad,
+            const Judgement& judgement, std::vector<char>& improved) {
+    std::vector<std::vector<Eigen::Isometry3d>> poses;
+    for (const GradedGrasp& grasp : grasps) {
+        poses.push_back(neighbours(grasp.X_PG, shift_m, turn_rad));
     }
-    return improved;
+    const std::size_t moves = poses.front().size();
+    std::vector<std::optional<GradedGrasp>> moved(grasps.size() * moves);
+    for_blocks(moved.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            moved[i] = moved_to(poses[i / moves][i % moves], grasps[i / moves], judgement);
+        }
+    });
+    for (std::size_t k = 0; k < grasps.size(); ++k) {
+        GradedGrasp* best = nullptr;
+        for (std::size_t move = k * moves; move < (k + 1) * moves; ++move) {
+            const double least = (best ? best : &grasps[k])->score.score;
+            if (moved[move] && moved[move]->score.score > least + kLeastGain) best = &*moved[move];
+        }
+        if (!best) continue;
+        best->axis = grasps[k].axis;
+        grasps[k] = std::move(*best);
+        improved[k] = 1;
+    }
 }
 
 }  // namespace
 
 void refine_grasps(std::vector<GradedGrasp>& grasps, const Judgement& judgement, StageLog& log) {
     constexpr const char* kRefine = "planner/refine_grasps";
-    if (grasps.empty() || judgement.config.search.refined == 0) return;
+    const SearchConfig& search = judgement.config.search;
+    if (grasps.empty() || search.refined == 0) return;
     std::vector<RankedEntry> entries;
     for (const GradedGrasp& grasp : grasps) entries.push_back(entry_of(grasp));
-    const auto ranking =
-        rank_grasps(entries, judgement.config.search.refined, judgement.config.rank_grasps);
-    if (!ranking) return;
+    const auto ranking = rank_grasps(entries, search.refined, judgement.config.rank_grasps);
+    if (!ranking || ranking.value().order.empty()) return;
     const std::vector<std::size_t>& chosen = ranking.value().order;
     std::vector<GradedGrasp> moved;  // all of them or, when this is stopped, none is taken
     for (const std::size_t i : chosen) moved.push_back(grasps[i]);
     std::vector<char> improved(chosen.size());
     log.run(kRefine, chosen.size(), [&] {
-        for_blocks(chosen.size(), 1, [&](std::size_t first, std::size_t last) {
-            for (std::size_t k = first; k < last; ++k) improved[k] = refine(moved[k], judgement);
-        });
+        double shift_m = search.refine_shift_m, turn_rad = search.refine_turn_rad;
+        for (std::uint32_t round = 0; round < search.refine_rounds; ++round) {
+            refine(moved, shift_m, turn_rad, judgement, improved);
+            shift_m *= 0.5;
+            turn_rad *= 0.5;
+        }
         return 0;
     });
     for (std::size_t k = 0; k < chosen.size(); ++k) grasps[chosen[k]] = std::move(moved[k]);

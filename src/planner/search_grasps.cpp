@@ -22,17 +22,29 @@ struct Attempt {
     std::uint32_t poses = 0;  ///< that were checked in full
 };
 
-/// Evaluates the poses of one axis.
+/// Evaluates the poses of one axis, a few at a time side by side: a batch whose axes have very
+/// different numbers of poses then keeps all threads at work.
 Attempt try_axis(const ClosingAxis& axis, const Judgement& judgement) {
     constexpr const char* kPoses = "planner/find_poses";
+    constexpr std::size_t kAtATime = 4;
     Attempt attempt{{}, Rejections(judgement.traced), {}, 0};
     const auto poses =
         attempt.log.run(kPoses, 1, [&] { return find_poses(axis, judgement, attempt.rejections); });
     attempt.log.out(kPoses, poses.size());
     attempt.poses = static_cast<std::uint32_t>(poses.size());
-    for (const ApproachPose& pose : poses) {
-        auto grasp = evaluate_pose(axis, pose, judgement, attempt.rejections, attempt.log);
-        if (grasp) attempt.grasps.push_back(std::move(*grasp));
+    std::vector<Attempt> parts((poses.size() + kAtATime - 1) / kAtATime);
+    for_blocks(poses.size(), kAtATime, [&](std::size_t first, std::size_t last) {
+        Attempt& part = parts[first / kAtATime];
+        part.rejections = Rejections(judgement.traced);
+        for (std::size_t i = first; i < last; ++i) {
+            auto grasp = evaluate_pose(axis, poses[i], judgement, part.rejections, part.log);
+            if (grasp) part.grasps.push_back(std::move(*grasp));
+        }
+    });
+    for (Attempt& part : parts) {
+        std::ranges::move(part.grasps, std::back_inserter(attempt.grasps));
+        attempt.rejections.merge(part.rejections);
+        attempt.log.merge(part.log);
     }
     return attempt;
 }
@@ -123,10 +135,7 @@ public:
     Rounds(const Judgement& judgement, StageLog& log, SearchResult& result)
         : judgement_(judgement), log_(log), result_(result) {}
 
-    bool wanted(GraspSource source) const {
-        const unsigned sources = judgement_.request.options.sources;
-        return sources == 0 || (sources & source) != 0;
-    }
+    bool wanted(GraspSource source) const { return is_wanted(source, judgement_.request.options); }
     void run(std::vector<ClosingAxis> axes);
     /// Counts axes of a source that the request does not ask for.
     void leave_out(const std::vector<ClosingAxis>& axes) {
@@ -158,14 +167,13 @@ void Rounds::run(std::vector<ClosingAxis> axes) {
 
 /// The paper's candidates of all concavities, each concavity on a thread of its own.
 /// @param boundaries  filled where candidates are traced
-std::vector<std::vector<ClosingAxis>> axes_of(const std::vector<Concavity>& concavities,
-                                              const SurfaceSamples& surface,
-                                              const Judgement& judgement, StageLog& log,
+std::vector<std::vector<ClosingAxis>> axes_of(const SeenSurface& seen, const Judgement& judgement,
+                                              StageLog& log,
                                               std::vector<TracedBoundary>& boundaries) {
-    std::vector<std::vector<ClosingAxis>> axes(concavities.size());
-    std::vector<std::vector<TracedBoundary>> traces(concavities.size());
-    each_logged(concavities.size(), log, [&](std::size_t i, StageLog& part) {
-        axes[i] = boundary_axes(concavities[i], static_cast<std::int32_t>(i), surface,
+    std::vector<std::vector<ClosingAxis>> axes(seen.concavities.size());
+    std::vector<std::vector<TracedBoundary>> traces(seen.concavities.size());
+    each_logged(axes.size(), log, [&](std::size_t i, StageLog& part) {
+        axes[i] = boundary_axes(seen.concavities[i], static_cast<std::int32_t>(i), seen.surface,
                                 judgement.object, judgement.gripper, judgement.config, part,
                                 judgement.traced ? &traces[i] : nullptr);
     });
@@ -177,18 +185,24 @@ std::vector<std::vector<ClosingAxis>> axes_of(const std::vector<Concavity>& conc
 /// @param boundaries  filled where candidates are traced
 void search(Rounds& rounds, const Judgement& judgement, const SeenSurface& seen, StageLog& log,
             std::vector<TracedBoundary>& boundaries) {
-    const auto& [surface, concavities] = seen;
-    if (rounds.wanted(kBoundary)) {
-        for (auto& axes : axes_of(concavities, surface, judgement, log, boundaries)) {
-            rounds.run(std::move(axes));
-        }
-    }
-    if (!rounds.wanted(kWall) && !rounds.wanted(kWholeObject)) return;
-    const auto axes = opposite_axes(concavities, surface, judgement.object, judgement.gripper,
-                                    judgement.config, log);
+    const bool along = rounds.wanted(kBoundary);
+    const bool across = rounds.wanted(kWall) || rounds.wanted(kWholeObject);
+    std::vector<std::vector<ClosingAxis>> of_concavities;
+    std::vector<ClosingAxis> opposite;
+    run_together({[&] {
+                      if (along) of_concavities = axes_of(seen, judgement, log, boundaries);
+                  },
+                  [&] {
+                      if (!across) return;
+                      opposite = opposite_axes(seen, judgement.object, judgement.gripper,
+                                               judgement.config);
+                  }});
+    for (auto& axes : of_concavities) rounds.run(std::move(axes));
+    if (!across) return;
+    if (seen.across) log.merge(seen.across->log);
     for (const GraspSource source : {kWall, kWholeObject}) {
         std::vector<ClosingAxis> of_source;
-        std::ranges::copy_if(axes, std::back_inserter(of_source),
+        std::ranges::copy_if(opposite, std::back_inserter(of_source),
                              [&](const ClosingAxis& a) { return a.source == source; });
         if (rounds.wanted(source)) {
             rounds.run(std::move(of_source));
@@ -199,6 +213,11 @@ void search(Rounds& rounds, const Judgement& judgement, const SeenSurface& seen,
 }
 
 }  // namespace
+
+bool is_wanted(GraspSource source, const PlanOptions& options) {
+    const unsigned sources = options.sources;
+    return sources == 0 || (sources & source) != 0;
+}
 
 SearchResult search_grasps(const Judgement& judgement, const SeenSurface& seen, StageLog& log) {
     SearchResult result{{}, Rejections(judgement.traced), {}, {}};

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "graspd/base/gripper.hpp"
+#include "graspd/grasp/opposite_candidates.hpp"
+#include "graspd/mesh/sample_surface.hpp"
+#include "graspd/planner/planner_config.hpp"
+#include "prepare_object.hpp"
+
+namespace graspd::planner_detail {
+
+/// Probes of the surface, and candidates from each of them across the solid.
+struct AcrossSolid {
+    SurfaceSamples probes;
+    std::vector<OppositeCandidate> candidates;  ///< they index `probes`
+    StageLog log;                               ///< of this work
+};
+/// Depends on the size of the gripper's fingers, on no limit of a request: candidates that are too
+/// wide are among them, so that they are counted as such later.
+AcrossSolid look_across(const PreparedObject& object, const Gripper& gripper,
+                        const PlannerConfig& config);
+
+}  // namespace graspd::planner_detail
