@@ -7,7 +7,7 @@
 #include "graspd/base/lanes.hpp"
 #include "graspd/base/triangle_bvh.hpp"
 
-// What the tree answers about boxes; rays are in triangle_bvh.cpp.
+// What the tree answers about boxes; rays are in triangle_bvh_rays.cpp.
 
 namespace graspd {
 namespace {

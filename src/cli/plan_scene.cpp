@@ -66,7 +66,7 @@ Result<ScenePlan> plan_scene(const PlanRequest& request,
     if (cloud == nullptr) {
         return PlanError{PlanErrorCode::kInvalidInput, "--scene needs a cloud, FILE is a mesh"};
     }
-    const auto scene = segment_scene(*cloud, {});
+    const auto scene = segment_scene(*cloud, config.segment_scene);
     if (!scene.ok()) return scene.error();
     const std::vector<PointCloud>& objects = scene.value().objects;
     const std::vector<TriangleMesh> bodies = bodies_of(scene.value(), config);

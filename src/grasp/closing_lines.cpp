@@ -1,25 +1,42 @@
 #include "closing_lines.hpp"
 
-namespace graspd::grasp_detail {
+#include <string>
 
-std::optional<std::vector<LineHit>> closing_lines(const TriangleBvh& tree_W,
-                                                  const Eigen::Isometry3d& X_WG,
-                                                  std::span<const double> y_G,
-                                                  std::span<const double> z_G, double half_reach_m,
-                                                  double side) {
-    std::vector<LineHit> hits;
-    const Eigen::Vector3d direction_W = -side * X_WG.linear().col(0);
+namespace graspd::grasp_detail {
+namespace {
+
+LineHit hit_from(const Eigen::Vector3d& start_G, double sign, const TriangleBvh::Hit& hit) {
+    return {start_G + Eigen::Vector3d(sign * hit.distance_m, 0.0, 0.0), hit.distance_m, hit.face};
+}
+
+PlanError begins_inside(const char* which) {
+    return {PlanErrorCode::kDegenerate,
+            std::string("the ") + which + " finger begins in the object"};
+}
+
+}  // namespace
+
+Result<ClosingLines> closing_lines(const TriangleBvh& tree_W, const Eigen::Isometry3d& X_WG,
+                                   std::span<const double> y_G, std::span<const double> z_G,
+                                   double half_reach_m) {
+    ClosingLines lines;
+    const Eigen::Vector3d direction_W = X_WG.linear().col(0);
     for (const double y : y_G) {
         for (const double z : z_G) {
-            const Eigen::Vector3d start_G(side * half_reach_m, y, z);
-            const auto hit = tree_W.first_hit(X_WG * start_G, direction_W, 2.0 * half_reach_m);
-            if (!hit) continue;
-            if (!hit->from_outside) return std::nullopt;
-            hits.push_back({start_G - Eigen::Vector3d(side * hit->distance_m, 0.0, 0.0),
-                            hit->distance_m, hit->face});
+            const Eigen::Vector3d left_G(-half_reach_m, y, z), right_G(half_reach_m, y, z);
+            const auto [left, right] = tree_W.hits_from_ends(X_WG * left_G, X_WG * right_G,
+                                                             direction_W, 2.0 * half_reach_m);
+            if (left) {
+                if (!left->from_outside) return begins_inside("left");
+                lines.left.push_back(hit_from(left_G, 1.0, *left));
+            }
+            if (right) {
+                if (!right->from_outside) return begins_inside("right");
+                lines.right.push_back(hit_from(right_G, -1.0, *right));
+            }
         }
     }
-    return hits;
+    return lines;
 }
 
 }  // namespace graspd::grasp_detail

@@ -68,15 +68,13 @@ Result<ContactPatches> contact_patches(const TriangleBvh& tree_W, const Eigen::I
     if (auto bad = validate(config, "contact_patch.")) return *bad;
     const auto y_G = middles_of_cells(config.lines_across, -face.half_width_m, face.half_width_m);
     const auto z_G = middles_of_cells(config.lines_along, face.from_z_m, face.to_z_m);
-    const auto look = [&](double side) {
-        return grasp_detail::closing_lines(tree_W, X_WG, y_G, z_G, face.half_reach_m, side);
-    };
-    const auto left = look(-1.0), right = look(1.0);
-    if (!left || !right) return PlanError{PlanErrorCode::kDegenerate, "a finger begins inside"};
-    if (left->empty() || right->empty()) {
+    const auto lines = grasp_detail::closing_lines(tree_W, X_WG, y_G, z_G, face.half_reach_m);
+    if (!lines) return lines.error();
+    const auto& [left, right] = lines.value();
+    if (left.empty() || right.empty()) {
         return PlanError{PlanErrorCode::kDegenerate, "a finger meets nothing"};
     }
-    return ContactPatches{press(*left, face, config), press(*right, face, config)};
+    return ContactPatches{press(left, face, config), press(right, face, config)};
 }
 
 }  // namespace graspd

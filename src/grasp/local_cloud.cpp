@@ -52,27 +52,18 @@ Result<LocalCloud> local_cloud(const TriangleMesh& object_W, const TriangleBvh& 
     if (auto bad = validate(config, "local_cloud.")) return *bad;
     const auto y_G = middles_of_cells(config.lines_across, footprint.half_width_m);
     const auto z_G = middles_of_cells(config.lines_along, footprint.half_height_m);
-    // None when a line begins inside the object: the pad cannot stand there.
-    const auto look = [&](double side) {
-        return grasp_detail::closing_lines(tree_W, X_WG, y_G, z_G, footprint.half_reach_m, side);
-    };
-    const auto left_lines = look(-1.0);
-    if (!left_lines) {
-        return PlanError{PlanErrorCode::kDegenerate, "the left pad begins in the object"};
-    }
-    const auto right_lines = look(1.0);
-    if (!right_lines) {
-        return PlanError{PlanErrorCode::kDegenerate, "the right pad begins in the object"};
-    }
+    const auto lines = grasp_detail::closing_lines(tree_W, X_WG, y_G, z_G, footprint.half_reach_m);
+    if (!lines) return lines.error();
+    const auto& [left_hits, right_hits] = lines.value();
     const Eigen::Matrix3d R_GW = X_WG.linear().transpose();
-    auto left = touch_of(*left_lines, -1.0, config.max_depth_m, object_W, R_GW);
-    auto right = touch_of(*right_lines, 1.0, config.max_depth_m, object_W, R_GW);
+    auto left = touch_of(left_hits, -1.0, config.max_depth_m, object_W, R_GW);
+    auto right = touch_of(right_hits, 1.0, config.max_depth_m, object_W, R_GW);
     if (!left || !right) return PlanError{PlanErrorCode::kDegenerate, "a pad meets nothing"};
-    const double lines = static_cast<double>(config.lines_across) * config.lines_along;
-    for (PadTouch* touch : {&*left, &*right}) touch->share /= lines;
+    const double count = static_cast<double>(config.lines_across) * config.lines_along;
+    for (PadTouch* touch : {&*left, &*right}) touch->share /= count;
     LocalCloud cloud{{}, *left, *right, 2.0 * footprint.half_width_m / config.lines_across};
-    cloud.points_G.reserve(left_lines->size() + right_lines->size());
-    for (const auto* seen : {&*left_lines, &*right_lines}) {
+    cloud.points_G.reserve(left_hits.size() + right_hits.size());
+    for (const auto* seen : {&left_hits, &right_hits}) {
         for (const LineHit& hit : *seen) cloud.points_G.push_back(hit.point_G);
     }
     return cloud;

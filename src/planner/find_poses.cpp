@@ -48,10 +48,16 @@ const char* line_blocked(const Judgement& judgement, const Eigen::Isometry3d& X_
 
 }  // namespace
 
+double insertion_step_m(const SearchConfig& search, double tip_offset_m) {
+    // Of tips so short that little would be left, half.
+    const double most_m = std::max(tip_offset_m - search.insertion_least_tip_m, 0.5 * tip_offset_m);
+    return std::min(search.insertion_tip_offsets * tip_offset_m, most_m);
+}
+
 std::vector<ApproachPose> find_poses(const ClosingAxis& axis, const Judgement& judgement,
                                      Rejections& rejections) {
     const SearchConfig& search = judgement.config.search;
-    const double step_m = search.insertion_tip_offsets * judgement.gripper.tip_offset_m;
+    const double step_m = insertion_step_m(search, judgement.gripper.tip_offset_m);
     const double width_m = (axis.right_P - axis.left_P).norm();
     std::vector<ApproachPose> poses;
     for (std::uint32_t turn = 0; turn < search.approaches; ++turn) {

@@ -8,6 +8,10 @@
 
 namespace graspd::planner_detail {
 
+/// [m] Between two depths of the pads: one step back a share of the tips is left beyond the
+/// contact, as at a rim, whose inside a tip that reaches farther may not fit.
+double insertion_step_m(const SearchConfig& search, double tip_offset_m);
+
 /// The ways in which a hand can come to a closing axis: directions about it, and depths.
 ///
 /// Reach is judged by the middle lines of palm and fingers alone; a pose whose lines are blocked

@@ -101,7 +101,7 @@ TEST(CycloneClients, FirstCallsAreAnsweredAtOnce) {
     const Daemon daemon(test_domain());
     std::map<std::string, int> attempts;
     for (int i = 0; i < 20; ++i) {
-        CycloneClient client({"service", "--id", "call", "--timeout", "1", "--retries", "5"});
+        CycloneClient client({"service", "--id", "call", "--timeout", "3", "--retries", "3"});
         EXPECT_EQ(client.wait_exit(), 0) << client.errors();
         const auto at = client.output().find("attempt=");
         ASSERT_NE(at, std::string::npos);

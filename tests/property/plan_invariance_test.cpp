@@ -133,6 +133,7 @@ PlannerConfig scaled(PlannerConfig config, double s) {
     config.load_ratios.torsion_length_m *= s;
     config.score_grasp.clearance_scale_m *= s;
     config.search.refine_shift_m *= s;
+    config.search.insertion_least_tip_m *= s;
     config.search.tolerance_shift_m *= s;
     config.search.lever_weight_rad_m /= s;
     config.search.most_clearance_m *= s;

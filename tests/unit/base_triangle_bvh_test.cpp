@@ -221,6 +221,58 @@ TEST(TriangleBvh, ANeedleDoesNotReachBeyondItsEnds) {
 }
 
 // Both ends belong to the segment; one that ends before the triangle is free.
+/// hits_from_ends() and the two first_hit() that it stands for.
+void expect_as_from_each_end(const TriangleBvh& bvh, const Vector3d& a, const Vector3d& direction,
+                             double distance_m) {
+    const Vector3d b = a + distance_m * direction;
+    const auto ends = bvh.hits_from_ends(a, b, direction, distance_m);
+    const auto expect = [](const std::optional<TriangleBvh::Hit>& expected,
+                           const std::optional<TriangleBvh::Hit>& hit) {
+        ASSERT_EQ(hit.has_value(), expected.has_value());
+        if (!hit) return;
+        EXPECT_EQ(hit->distance_m, expected->distance_m);
+        EXPECT_EQ(hit->face, expected->face);
+        EXPECT_EQ(hit->from_outside, expected->from_outside);
+    };
+    expect(bvh.first_hit(a, direction, distance_m), ends.from_a);
+    expect(bvh.first_hit(b, -direction, distance_m), ends.from_b);
+}
+
+TEST(TriangleBvh, BothEndsOfALine) {
+    // A block of 40 in the middle of a room of 200, seen from within the room and from outside.
+    const auto room = test::box({0.2, 0.2, 0.2}, 300), block = test::box({0.04, 0.04, 0.04}, 300);
+    const TriangleBvh bvh(test::joined(room, block), 1e-9);
+    const Vector3d from_room(-0.09, 0.003, 0.004), from_outside(-0.15, 0.003, 0.004);
+    const auto x = Vector3d::UnitX();
+    const auto in_room = bvh.hits_from_ends(from_room, from_room + 0.18 * x, x, 0.18);
+    ASSERT_TRUE(in_room.from_a && in_room.from_b);
+    EXPECT_NEAR(in_room.from_a->distance_m, 0.07, 1e-12);
+    EXPECT_NEAR(in_room.from_b->distance_m, 0.07, 1e-12);
+    EXPECT_TRUE(in_room.from_a->from_outside && in_room.from_b->from_outside);
+    const auto across = bvh.hits_from_ends(from_outside, from_outside + 0.15 * x, x, 0.15);
+    ASSERT_TRUE(across.from_a && across.from_b);
+    EXPECT_NEAR(across.from_a->distance_m, 0.05, 1e-12);  // the room's wall
+    EXPECT_TRUE(across.from_a->from_outside);
+    EXPECT_NEAR(across.from_b->distance_m, 0.02, 1e-12);  // the block, from its middle
+    EXPECT_FALSE(across.from_b->from_outside);
+    const auto short_of_all = bvh.hits_from_ends(from_room, from_room + 0.06 * x, x, 0.06);
+    EXPECT_FALSE(short_of_all.from_a || short_of_all.from_b);
+}
+
+TEST(TriangleBvh, BothEndsAreAsEachAlone) {
+    std::mt19937_64 random(7);
+    TriangleMesh shells;  // five in one another, so that most of what a line passes is in between
+    for (const double radius_m : {0.01, 0.02, 0.03, 0.04, 0.05}) {
+        shells = test::joined(shells, test::sphere(radius_m, 1500));
+    }
+    const TriangleBvh bvh = bvh_of(shells);
+    for (int i = 0; i < 5000; ++i) {
+        const Vector3d a = 0.08 * random_vector(random);
+        const Vector3d direction = random_vector(random).normalized();
+        expect_as_from_each_end(bvh, a, direction, 0.1 * (1.0 + fraction(random)));
+    }
+}
+
 TEST(TriangleBvh, SegmentsAreClosed) {
     const TriangleBvh bvh(right_triangle(1.0, 1.0), 1e-6);
     EXPECT_TRUE(bvh.segment_blocked({0.2, 0.2, 1.0}, {0.2, 0.2, 0.0}));

@@ -69,6 +69,14 @@ TEST(PlanScene, ElseForTheOneWithTheBestGrasp) {
                 HasSubstr("this reply is for object"));
 }
 
+TEST(PlanScene, TheGapBetweenObjectsIsASetting) {
+    PlannerConfig config;
+    config.segment_scene.gap_m = 0.4;  // farther than the objects stand apart
+    const auto plan = plan_scene(scene(), Vector3d(0.0, 0.0, 0.0), config, {});
+    ASSERT_TRUE(plan.ok()) << plan.error().detail;
+    EXPECT_EQ(plan.value().reply.report.findings[0].value, 1.0);  // scene_objects
+}
+
 TEST(PlanScene, NeedsACloudWithAPlane) {
     PlanRequest request = scene();
     request.object_O = test::box({0.1, 0.1, 0.1});

@@ -128,8 +128,8 @@ TEST(LocalCloud, WithoutTwoTouchesThereIsNone) {
         EXPECT_NE(cloud.error().detail.find(word), std::string::npos) << cloud.error().detail;
     };
     expect({0, 0.2, 0}, 0.05, "meets nothing");
-    expect({-0.03, 0, 0}, 0.015, "right pad begins in the object");  // from -45 to -15
-    expect({0.03, 0, 0}, 0.015, "left pad begins in the object");
+    expect({-0.03, 0, 0}, 0.015, "right finger begins in the object");  // from -45 to -15
+    expect({0.03, 0, 0}, 0.015, "left finger begins in the object");
 }
 
 TEST(LocalCloud, EveryParameterHasItsRange) {

@@ -27,6 +27,10 @@ public:
         double distance_m = 0.0;   ///< [m] from the ray's origin
         std::uint32_t face = 0;    ///< index into the mesh's faces
         bool from_outside = true;  ///< the ray meets the face's outer side
+
+        /// Becomes the nearest hit where it is that; of equally near ones, that of the lower face
+        /// is. @return whether it did
+        bool keep_if_nearer(std::optional<Hit>& nearest) const;
     };
 
     /// Copies what it needs of `mesh`; faces of zero area are never hit. Cost O(F log F).
@@ -50,6 +54,15 @@ public:
     /// index.
     std::optional<Hit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                  double max_distance_m) const;
+
+    /// What a line meets first from either end, as far as the other end.
+    struct EndHits {
+        std::optional<Hit> from_a, from_b;
+    };
+    /// first_hit() from `a` along the unit direction, and from `b`, `distance_m` further, back: one
+    /// walk instead of two.
+    EndHits hits_from_ends(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                           const Eigen::Vector3d& direction, double distance_m) const;
 
     /// All hits by rising distance (ties by face). Hits on a shared edge come once per face, unless
     /// they follow each other within the tolerance on the same side: then one stands for all.
@@ -91,7 +104,10 @@ private:
         std::uint32_t first = 0, count = 0;
     };
     struct Ray;
+    class EndWalk;
     struct Vicinity;
+    /// A triangle's products round by less, over powers of its longest edge [units].
+    static constexpr float kRounding = 2e-6F;
 
     void add_pack(std::uint32_t& leaf);
     static unsigned near_lanes(const Ray& ray, const Pack& pack, float reach, float margin);
@@ -99,7 +115,8 @@ private:
     static unsigned near_lanes(const Vicinity& vicinity, const Pack& pack);
     template <class Visit>
     bool visit_near(const Vicinity& vicinity, Visit&& visit) const;
-    bool meets(const Ray& ray, std::uint32_t place, double reach, Hit& hit) const;
+    bool meets(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction, std::uint32_t place,
+               double reach, Hit& hit) const;
     template <bool kNearestFirst, class Visit>
     void traverse(const Ray& ray, double& reach, Visit&& visit) const;
 

@@ -17,6 +17,7 @@
 #include "graspd/mesh/condition_mesh.hpp"
 #include "graspd/mesh/face_sensor.hpp"
 #include "graspd/mesh/sample_surface.hpp"
+#include "graspd/mesh/segment_scene.hpp"
 #include "graspd/mesh/triangulate_cloud.hpp"
 #include "graspd/planner/guess_units.hpp"
 #include "graspd/planner/search_config.hpp"
@@ -29,6 +30,7 @@ namespace graspd {
 
 /// Every parameter of the planner, one group a stage; profiles/planner.yaml has the same tree.
 struct PlannerConfig {
+    SegmentSceneConfig segment_scene;
     TriangulateCloudConfig triangulate_cloud;
     ConditionMeshConfig condition_mesh;
     FaceSensorConfig face_sensor;
@@ -58,6 +60,7 @@ struct PlannerConfig {
 
     template <class Self, class Visitor>
     static void describe(Self& self, Visitor&& visit) {
+        visit("segment_scene", self.segment_scene);
         visit("triangulate_cloud", self.triangulate_cloud);
         visit("condition_mesh", self.condition_mesh);
         visit("face_sensor", self.face_sensor);

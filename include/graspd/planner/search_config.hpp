@@ -14,7 +14,9 @@ struct SearchConfig {
     std::uint32_t planes = 3;      ///< of a concavity's three plane pairs, the best so many
     std::uint32_t approaches = 8;  ///< directions about each closing axis
     std::uint32_t insertions = 3;  ///< depths of the pads; 1: their centres at the contact
-    double insertion_tip_offsets = 0.6;    ///< [1] between two depths, in tip offsets
+    double insertion_tip_offsets = 0.8;    ///< [1] between two depths, in tip offsets,
+    double insertion_least_tip_m = 0.004;  ///< [m] or what leaves so much of the tips beyond the
+                                           ///< contact, where that is less
     std::uint32_t probe_samples = 800;     ///< of the surface, for opposite candidates
     std::uint32_t axes_per_round = 24;     ///< a round (one concavity, the walls, the whole object)
                                            ///< ends when so many axes gave a grasp,
@@ -40,7 +42,8 @@ struct SearchConfig {
         visit("planes", self.planes, 1u, 3u);
         visit("approaches", self.approaches, 1u, 360u);
         visit("insertions", self.insertions, 1u, 10u);
-        visit("insertion_tip_offsets", self.insertion_tip_offsets, 0.0, 2.0);
+        visit("insertion_tip_offsets", self.insertion_tip_offsets, 0.0, 1.0);
+        visit("insertion_least_tip_m", self.insertion_least_tip_m, 0.0, 0.1);
         visit("probe_samples", self.probe_samples, 100u, 1000000u);
         visit("axes_per_round", self.axes_per_round, 1u, 100000u);
         visit("poses_per_round", self.poses_per_round, 1u, 10000000u);

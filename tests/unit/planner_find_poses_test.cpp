@@ -1,0 +1,28 @@
+#include "find_poses.hpp"
+
+#include <gtest/gtest.h>
+
+namespace graspd::planner_detail {
+namespace {
+
+TEST(FindPoses, AStepBackLeavesSomeOfTheTips) {
+    const SearchConfig search;  // 0.8 tip offsets, 4 mm at the least
+    EXPECT_DOUBLE_EQ(insertion_step_m(search, 0.035), 0.028);
+    EXPECT_DOUBLE_EQ(insertion_step_m(search, 0.010), 0.006);  // not 8: 2 would be left
+    EXPECT_DOUBLE_EQ(insertion_step_m(search, 0.006), 0.003);  // half, where 4 is most of it
+    EXPECT_DOUBLE_EQ(insertion_step_m(search, 0.0), 0.0);
+}
+
+TEST(FindPoses, StepsAreSettings) {
+    SearchConfig search;
+    search.insertion_tip_offsets = 0.5;
+    EXPECT_DOUBLE_EQ(insertion_step_m(search, 0.02), 0.01);
+    search.insertion_least_tip_m = 0.012;
+    EXPECT_DOUBLE_EQ(insertion_step_m(search, 0.02), 0.01);  // no less than half
+    search.insertion_tip_offsets = 1.0;
+    search.insertion_least_tip_m = 0.0;
+    EXPECT_DOUBLE_EQ(insertion_step_m(search, 0.02), 0.02);
+}
+
+}  // namespace
+}  // namespace graspd::planner_detail
