@@ -17,12 +17,14 @@ struct Waiting {
 
 /// Those on top are looked at next.
 struct WaitingStack {
+    static constexpr std::size_t kRoom = BoxTree::kStackDepth;
+
     std::size_t size = 0;
-    std::array<Waiting, 2 * BoxTree::kStackDepth> items;
+    std::array<Waiting, 2 * kRoom> items;
 
     explicit WaitingStack() {}  // leaves the items as they are: most are never used
 
-    bool has_room() const { return size < BoxTree::kStackDepth; }
+    bool has_room() const { return size < kRoom; }
     Waiting pop() { return items[--size]; }
     /// Under what of that above `bottom` is to be looked at sooner.
     template <class Sooner>
