@@ -224,4 +224,11 @@ std::optional<GradedGrasp> evaluate_pose(const ClosingAxis& axis, const Approach
     return pose.grasp_;
 }
 
+std::optional<GradedGrasp> evaluate_beside(const Eigen::Isometry3d& X_PG, double width_m,
+                                           const Judgement& judgement) {
+    Rejections unused;
+    StageLog untold;
+    return evaluate_pose(axis_through(X_PG, width_m), {}, judgement, unused, untold);
+}
+
 }  // namespace graspd::planner_detail

@@ -36,4 +36,9 @@ std::optional<GradedGrasp> evaluate_pose(const ClosingAxis& axis, const Approach
                                          const Judgement& judgement, Rejections& rejections,
                                          StageLog& log);
 
+/// The same for a pose beside one that was examined, with the pads as far apart: nothing is
+/// counted.
+std::optional<GradedGrasp> evaluate_beside(const Eigen::Isometry3d& X_PG, double width_m,
+                                           const Judgement& judgement);
+
 }  // namespace graspd::planner_detail

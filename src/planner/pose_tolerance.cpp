@@ -37,10 +37,7 @@ private:
         });
     }
     bool holds(const Eigen::Isometry3d& X_PG) const {
-        Rejections unused;
-        StageLog untold;
-        const auto moved =
-            evaluate_pose(axis_through(X_PG, width_m_), {}, judgement_, unused, untold);
+        const auto moved = evaluate_beside(X_PG, width_m_, judgement_);
         return moved && moved->score.score >= judgement_.config.rank_grasps.likely_score;
     }
 

@@ -25,14 +25,6 @@ std::vector<Eigen::Isometry3d> neighbours(const Eigen::Isometry3d& X_PG, double 
     return poses;
 }
 
-/// The grasp moved to a pose, where it holds.
-std::optional<GradedGrasp> moved_to(const Eigen::Isometry3d& X_PG, const GradedGrasp& grasp,
-                                    const Judgement& judgement) {
-    Rejections unused;
-    StageLog untold;
-    return evaluate_pose(axis_through(X_PG, grasp.width_m), {}, judgement, unused, untold);
-}
-
 /// One round of all grasps, all of their moves side by side. Notes what was improved.
 void refine(std::span<GradedGrasp> grasps, double shift_m, double turn_rad,
             const Judgement& judgement, std::vector<char>& improved) {
@@ -44,7 +36,8 @@ void refine(std::span<GradedGrasp> grasps, double shift_m, double turn_rad,
     std::vector<std::optional<GradedGrasp>> moved(grasps.size() * moves);
     for_blocks(moved.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            moved[i] = moved_to(poses[i / moves][i % moves], grasps[i / moves], judgement);
+            moved[i] =
+                evaluate_beside(poses[i / moves][i % moves], grasps[i / moves].width_m, judgement);
         }
     });
     for (std::size_t k = 0; k < grasps.size(); ++k) {

@@ -220,7 +220,6 @@ TEST(TriangleBvh, ANeedleDoesNotReachBeyondItsEnds) {
     EXPECT_FALSE(meets(1.001, 0.0));
 }
 
-// Both ends belong to the segment; one that ends before the triangle is free.
 /// hits_from_ends() and the two first_hit() that it stands for.
 void expect_as_from_each_end(const TriangleBvh& bvh, const Vector3d& a, const Vector3d& direction,
                              double distance_m) {
@@ -273,6 +272,7 @@ TEST(TriangleBvh, BothEndsAreAsEachAlone) {
     }
 }
 
+// Both ends belong to the segment; one that ends before the triangle is free.
 TEST(TriangleBvh, SegmentsAreClosed) {
     const TriangleBvh bvh(right_triangle(1.0, 1.0), 1e-6);
     EXPECT_TRUE(bvh.segment_blocked({0.2, 0.2, 1.0}, {0.2, 0.2, 0.0}));
