@@ -13,6 +13,7 @@
 #include <fastdds/dds/log/StdoutErrConsumer.hpp>
 #include <fastdds/rtps/flowcontrol/FlowControllerDescriptor.hpp>
 
+#include "absent_interfaces.hpp"
 #include "security_properties.hpp"
 #include "type_hashes.hpp"
 
@@ -133,6 +134,11 @@ Result<std::unique_ptr<Participant>> Participant::join(const DdsSettings& settin
         ReturnCode_t::RETCODE_OK) {
         return bad_file(settings.profile_file,
                         std::string("has no valid profile ") + kParticipantProfile);
+    }
+    if (const std::string absent = absent_interfaces(qos); !absent.empty()) {
+        return PlanError{PlanErrorCode::kInternal, "DDS profile file " + settings.profile_file +
+                                                       ": no interface with the address " + absent +
+                                                       " is up"};
     }
     if (auto error = add_peers(settings.static_peers, qos)) return *std::move(error);
     if (settings.node.gid_bytes != GidBytes::kOff) {

@@ -37,7 +37,7 @@ public:
     /// @return kUnreadableFile for a file that is missing, broken, lacks a profile or has one whose
     ///         reliability, durability or history is not that of the contract; kInvalidInput for a
     ///         domain above 232, no payload bytes, or a second file; kInternal when the middleware
-    ///         refuses
+    ///         refuses or no interface of the profile is up (which another try may find mended)
     static Result<std::unique_ptr<Participant>> join(const DdsSettings& settings);
 
     Participant(const Participant&) = delete;

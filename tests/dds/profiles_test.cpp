@@ -3,6 +3,7 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -230,6 +231,38 @@ TEST_F(Profiles, ForgettingRequestsAreRefused) {
 TEST_F(Profiles, VolatileRepliesAreRefused) {
     expect_unreadable(error_of(edited_after(kReplyWriter, "TRANSIENT_LOCAL", "VOLATILE")),
                       "data_writer /graspd/ranked_grasps must be TRANSIENT_LOCAL");
+}
+
+/// 192.0.2.0/24 is for documentation (RFC 5737): nobody has such an address.
+constexpr const char* kAbsentAddress = "192.0.2.77";
+
+// The middleware would make a participant that never hears of anybody.
+TEST_F(Profiles, AbsentInterfaceIsNamed) {
+    const auto error = error_of(edited("127.0.0.1", kAbsentAddress));
+    EXPECT_EQ(error.code, PlanErrorCode::kInternal) << "a supervisor shall try again";
+    EXPECT_THAT(error.detail, AllOf(HasSubstr("profile.xml"), HasSubstr(kAbsentAddress)));
+}
+
+TEST_F(Profiles, OneInterfaceOfSeveralIsEnough) {
+    DdsSettings settings = loopback_settings();
+    settings.profile_file =
+        edited("<interfaceWhiteList>",
+               "<interfaceWhiteList><address>" + std::string(kAbsentAddress) + "</address>");
+    EXPECT_TRUE(PlannerPort::open(settings, [](auto) {}).ok());
+}
+
+TEST_F(Profiles, InterfaceThatComesUpIsTaken) {
+    if (!is_isolated() || ::geteuid() != 0) GTEST_SKIP() << "no network of its own to change";
+    DdsSettings settings = loopback_settings();
+    settings.profile_file = edited("127.0.0.1", kAbsentAddress);
+    ASSERT_FALSE(PlannerPort::open(settings, [](auto) {}).ok());
+    const auto address = [](const std::string& change) {
+        return std::system(("ip address " + change + " 192.0.2.77/32 dev lo").c_str());
+    };
+    if (address("add") != 0) GTEST_SKIP() << "the address cannot be added here";
+    const auto port = PlannerPort::open(settings, [](auto) {});
+    EXPECT_TRUE(port.ok()) << port.error().detail;
+    EXPECT_EQ(address("del"), 0);
 }
 
 // The middleware would keep the first file's profiles and say nothing.

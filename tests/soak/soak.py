@@ -259,8 +259,8 @@ class Soak:
 
     def disturb(self, turn, clients):
         what = turn % (3 if os.environ[INSIDE] == "own" else 2)
+        self.daemon.wait_for("event=ready", self.kills + 1)
         if what == 0:
-            self.daemon.wait_for("event=ready", self.kills + 1)
             os.kill(self.daemon.participant(), signal.SIGKILL)
             self.kills += 1
         elif what == 1:

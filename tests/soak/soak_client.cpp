@@ -46,17 +46,30 @@ struct Arguments {
     bool watch = false;
 };
 
+constexpr std::chrono::seconds kLinkComesBack{10};
+
 template <class T>
 T value_of(Result<T> result) {
     if (!result.ok()) throw std::runtime_error(result.error().detail);
     return std::move(result).value();
 }
 
+/// The link may be down just now.
+template <class Open>
+auto open_in_time(const Open& open) {
+    const auto end = Clock::now() + kLinkComesBack;
+    while (true) {
+        auto result = open();
+        if (result.ok() || Clock::now() > end) return value_of(std::move(result));
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+}
+
 /// Sends cancellations.
 class Canceller {
 public:
     explicit Canceller(const DdsSettings& settings)
-        : participant_(value_of(dds::Participant::join(settings))),
+        : participant_(open_in_time([&] { return dds::Participant::join(settings); })),
           writer_(participant_->create_writer(
               {settings.names.cancel,
                dds::fast::TypeSupport(new dds::wire::CancelRequest_PubSubType), dds::kCancelEnds},
@@ -89,7 +102,8 @@ public:
         : arguments_(arguments),
           gripper_(value_of(find_gripper("parallel_85", value_of(find_profiles()) / "grippers"))),
           canceller_(arguments.dds),
-          client_(value_of(PlannerClient::open(arguments.dds, arguments.client))) {}
+          client_(
+              open_in_time([&] { return PlannerClient::open(arguments.dds, arguments.client); })) {}
 
     /// @return whether all is well
     bool ask_all() {
