@@ -46,13 +46,13 @@ public:
     Participant(const Participant&) = delete;
     Participant& operator=(const Participant&) = delete;
 
-    dds::DataWriter* writer(const char* topic, dds::TypeSupport type, const char* profile) {
+    dds::DataWriter* writer(const char* topic, const dds::TypeSupport& type, const char* profile) {
         dds::Topic* made = make_topic(topic, type);
         dds::Publisher* publisher =
             required(participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT), "a publisher");
         return required(publisher->create_datawriter_with_profile(made, profile), profile);
     }
-    dds::DataReader* reader(const char* topic, dds::TypeSupport type, const char* profile) {
+    dds::DataReader* reader(const char* topic, const dds::TypeSupport& type, const char* profile) {
         dds::Topic* made = make_topic(topic, type);
         dds::Subscriber* subscriber =
             required(participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT), "a subscriber");
@@ -63,7 +63,7 @@ private:
     static dds::DomainParticipantFactory& factory() {
         return *dds::DomainParticipantFactory::get_instance();
     }
-    dds::Topic* make_topic(const char* name, dds::TypeSupport type) {
+    dds::Topic* make_topic(const char* name, const dds::TypeSupport& type) {
         type.register_type(participant_);
         return required(
             participant_->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT), name);

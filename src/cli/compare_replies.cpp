@@ -75,7 +75,7 @@ void compare_rows(const std::string& what, const Rows& a, const Rows& b, Name na
     for (const auto& row : b) both[name(row)].second += value(row);
     const auto shown = [](const std::string& text) { return text.empty() ? "none" : text; };
     for (const auto& [key, values] : both) {
-        to.texts(what + " " + key, shown(values.first), shown(values.second));
+        to.texts((what + ' ').append(key), shown(values.first), shown(values.second));
     }
 }
 

@@ -1,6 +1,7 @@
 #include "find_poses.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -54,13 +55,24 @@ double insertion_step_m(const SearchConfig& search, double tip_offset_m) {
     return std::min(search.insertion_tip_offsets * tip_offset_m, most_m);
 }
 
+std::vector<std::uint32_t> spread_turns(std::uint32_t count) {
+    std::vector<std::uint32_t> turns;
+    const std::uint32_t all = std::bit_ceil(count);
+    for (std::uint32_t i = 0; i < all; ++i) {
+        std::uint32_t turn = 0;
+        for (std::uint32_t bit = 1; bit < all; bit *= 2) turn = 2 * turn + (i / bit) % 2;
+        if (turn < count) turns.push_back(turn);
+    }
+    return turns;
+}
+
 std::vector<ApproachPose> find_poses(const ClosingAxis& axis, const Judgement& judgement,
                                      Rejections& rejections) {
     const SearchConfig& search = judgement.config.search;
     const double step_m = insertion_step_m(search, judgement.gripper.tip_offset_m);
     const double width_m = (axis.right_P - axis.left_P).norm();
     std::vector<ApproachPose> poses;
-    for (std::uint32_t turn = 0; turn < search.approaches; ++turn) {
+    for (const std::uint32_t turn : spread_turns(search.approaches)) {
         for (std::uint32_t depth = 0; depth < search.insertions; ++depth) {
             // 0, one deeper, one shallower, two deeper, ...
             const std::uint32_t steps = (depth + 1) / 2;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "closing_axis.hpp"
@@ -12,7 +13,11 @@ namespace graspd::planner_detail {
 /// contact, as at a rim, whose inside a tip that reaches farther may not fit.
 double insertion_step_m(const SearchConfig& search, double tip_offset_m);
 
-/// The ways in which a hand can come to a closing axis: directions about it, and depths.
+/// 0 to count - 1 in the order of their bits read backwards, so that the first few are far apart.
+std::vector<std::uint32_t> spread_turns(std::uint32_t count);
+
+/// The ways in which a hand can come to a closing axis: directions about it, the first few far
+/// apart, and depths.
 ///
 /// Reach is judged by the middle lines of palm and fingers alone; a pose whose lines are blocked
 /// needs no full check. A pose that falls is counted: outside_approach_cones (with its margin where

@@ -1,6 +1,7 @@
 #include "search_grasps.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "boundary_axes.hpp"
 #include "find_poses.hpp"
@@ -22,16 +23,11 @@ struct Attempt {
     std::uint32_t poses = 0;  ///< that were checked in full
 };
 
-/// Evaluates the poses of one axis, a few at a time side by side: a batch whose axes have very
-/// different numbers of poses then keeps all threads at work.
-Attempt try_axis(const ClosingAxis& axis, const Judgement& judgement) {
-    constexpr const char* kPoses = "planner/find_poses";
+/// Evaluates poses of an axis, a few at a time side by side: a batch whose axes have very different
+/// numbers of poses then keeps all threads at work.
+void try_poses(const ClosingAxis& axis, std::span<const ApproachPose> poses,
+               const Judgement& judgement, Attempt& attempt) {
     constexpr std::size_t kAtATime = 4;
-    Attempt attempt{{}, Rejections(judgement.traced), {}, 0};
-    const auto poses =
-        attempt.log.run(kPoses, 1, [&] { return find_poses(axis, judgement, attempt.rejections); });
-    attempt.log.out(kPoses, poses.size());
-    attempt.poses = static_cast<std::uint32_t>(poses.size());
     std::vector<Attempt> parts((poses.size() + kAtATime - 1) / kAtATime);
     for_blocks(poses.size(), kAtATime, [&](std::size_t first, std::size_t last) {
         Attempt& part = parts[first / kAtATime];
@@ -45,6 +41,32 @@ Attempt try_axis(const ClosingAxis& axis, const Judgement& judgement) {
         std::ranges::move(part.grasps, std::back_inserter(attempt.grasps));
         attempt.rejections.merge(part.rejections);
         attempt.log.merge(part.log);
+    }
+}
+
+/// The poses of one axis in their order, until enough of them gave a grasp: those that follow are
+/// turned to between the directions of the first.
+Attempt try_axis(const ClosingAxis& axis, const Judgement& judgement) {
+    constexpr const char* kPoses = "planner/find_poses";
+    constexpr std::size_t kBetweenLooks = 8;  // poses
+    Attempt attempt{{}, Rejections(judgement.traced), {}, 0};
+    const auto poses =
+        attempt.log.run(kPoses, 1, [&] { return find_poses(axis, judgement, attempt.rejections); });
+    attempt.log.out(kPoses, poses.size());
+    // Where near grasps are to fall, all are asked: the one that is clear may be the last.
+    const std::size_t enough = judgement.request.options.min_clearance_m > 0.0
+                                   ? poses.size()
+                                   : judgement.config.search.grasps_per_axis;
+    std::span<const ApproachPose> untried = poses;
+    while (!untried.empty() && attempt.grasps.size() < enough) {
+        const std::size_t count = std::min(kBetweenLooks, untried.size());
+        try_poses(axis, untried.first(count), judgement, attempt);
+        untried = untried.subspan(count);
+    }
+    attempt.poses = static_cast<std::uint32_t>(poses.size() - untried.size());
+    for (const ApproachPose& pose : untried) {
+        attempt.rejections.add("pose_surplus",
+                               [&] { return traced(axis, pose, judgement.gripper.name); });
     }
     return attempt;
 }

@@ -18,10 +18,26 @@ struct Stat {
     pid_t parent = 0;
 };
 
+/// What a folder of /proc holds; processes may end while it is read.
+std::vector<fs::path> entries_of(const fs::path& folder) {
+    std::vector<fs::path> entries;
+    std::error_code failed;
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end;
+         at.increment(failed)) {
+        entries.push_back(at->path());
+    }
+    return entries;
+}
+
+fs::path folder_of(pid_t pid) {
+    return "/proc/" + std::to_string(pid);
+}
+
 /// The name in /proc/PID/stat may hold blanks and brackets: the last bracket ends it.
 std::optional<Stat> read_stat(pid_t pid) {
-    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-    const std::string text(std::istreambuf_iterator<char>(file), {});
+    std::ifstream file(folder_of(pid) / "stat");
+    std::string text;  // stays empty when the process ends meanwhile
+    std::getline(file, text, '\0');
     const auto name_end = text.rfind(')');
     if (name_end == std::string::npos) return std::nullopt;
     Stat stat;
@@ -33,9 +49,8 @@ std::optional<Stat> read_stat(pid_t pid) {
 std::set<std::string> socket_inodes(pid_t pid) {
     std::set<std::string> inodes;
     std::error_code failed;
-    for (const auto& entry :
-         fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd", failed)) {
-        const std::string target = fs::read_symlink(entry.path(), failed).string();
+    for (const fs::path& entry : entries_of(folder_of(pid) / "fd")) {
+        const std::string target = fs::read_symlink(entry, failed).string();
         if (target.starts_with("socket:[")) inodes.insert(target.substr(8, target.size() - 9));
     }
     return inodes;
@@ -50,8 +65,8 @@ std::optional<char> process_state(pid_t pid) {
 
 std::vector<pid_t> children_of(pid_t pid) {
     std::vector<pid_t> children;
-    for (const auto& entry : fs::directory_iterator("/proc")) {
-        const std::string name = entry.path().filename().string();
+    for (const fs::path& entry : entries_of("/proc")) {
+        const std::string name = entry.filename().string();
         if (name.find_first_not_of("0123456789") != std::string::npos) continue;
         const auto stat = read_stat(std::stoi(name));
         if (stat && stat->parent == pid) children.push_back(std::stoi(name));
@@ -70,7 +85,7 @@ bool wait_gone(pid_t pid) {
 std::vector<std::uint16_t> udp_ports(pid_t pid) {
     const auto inodes = socket_inodes(pid);
     std::vector<std::uint16_t> ports;
-    std::ifstream table("/proc/" + std::to_string(pid) + "/net/udp");
+    std::ifstream table(folder_of(pid) / "net/udp");
     std::string line;
     std::getline(table, line);  // headings
     while (std::getline(table, line)) {
@@ -87,7 +102,7 @@ std::vector<std::uint16_t> udp_ports(pid_t pid) {
 }
 
 std::uint64_t status_bytes(pid_t pid, const std::string& field) {
-    std::ifstream file("/proc/" + std::to_string(pid) + "/status");
+    std::ifstream file(folder_of(pid) / "status");
     for (std::string line; std::getline(file, line);) {
         if (line.starts_with(field + ":")) return std::stoull(line.substr(field.size() + 1)) * 1024;
     }
@@ -95,9 +110,7 @@ std::uint64_t status_bytes(pid_t pid, const std::string& field) {
 }
 
 std::size_t open_descriptors(pid_t pid) {
-    std::error_code failed;
-    const fs::directory_iterator open("/proc/" + std::to_string(pid) + "/fd", failed);
-    return failed ? 0 : static_cast<std::size_t>(std::distance(begin(open), end(open)));
+    return entries_of(folder_of(pid) / "fd").size();
 }
 
 }  // namespace graspd::test

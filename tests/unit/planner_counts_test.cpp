@@ -58,6 +58,8 @@ std::vector<Case> cases() {
              },
              "outside_approach_cones"},
             {"friction", [](PlanRequest& r) { r.options.friction = 0.1; }, "slips"},
+            {"free on all sides", [](PlanRequest& r) { r.options.sources = kWholeObject; },
+             "pose_surplus"},
             {"one grasp", [](PlanRequest& r) { r.options.max_grasps = 1; }, "surplus"},
             {"walls", [](PlanRequest& r) { r.options.sources = kWall; }, "axis_source_unwanted"},
             {"boundary", [](PlanRequest& r) { r.options.sources = kBoundary; }},

@@ -24,5 +24,13 @@ TEST(FindPoses, StepsAreSettings) {
     EXPECT_DOUBLE_EQ(insertion_step_m(search, 0.02), 0.02);
 }
 
+TEST(FindPoses, TheFirstTurnsAreFarApart) {
+    using Turns = std::vector<std::uint32_t>;
+    EXPECT_EQ(spread_turns(8), (Turns{0, 4, 2, 6, 1, 5, 3, 7}));
+    EXPECT_EQ(spread_turns(6), (Turns{0, 4, 2, 1, 5, 3}));
+    EXPECT_EQ(spread_turns(2), (Turns{0, 1}));
+    EXPECT_EQ(spread_turns(1), (Turns{0}));
+}
+
 }  // namespace
 }  // namespace graspd::planner_detail

@@ -77,6 +77,32 @@ TEST(Plan, ReturnsNoMoreThanAreAskedFor) {
     }
 }
 
+/// What came out of a stage.
+std::uint64_t out_of(const PlanReply& reply, const char* name) {
+    const auto& stages = reply.report.stages;
+    const auto stage = std::ranges::find(stages, name, &StageReport::name);
+    return stage == stages.end() ? 0 : stage->out;
+}
+
+// A hand gets to a ball from all sides, and nearly every pose that it gets to holds. Of each of
+// the 24 axes eight poses are tried, of which six hold and more; with a least clearance all, as the
+// one that is clear may be the last.
+TEST(Plan, LeavesAnAxisWhenEnoughOfItsPosesHold) {
+    constexpr const char* kPoses = "planner/find_poses";
+    constexpr const char* kGraded = "grasp/contact_patch";
+    PlanRequest request = from_source(test::sphere(0.03, 2000), kWholeObject);
+    const PlanReply few = planned(request);
+    EXPECT_EQ(out_of(few, kGraded), 24U * 8U);
+    EXPECT_EQ(rejections_of(few, "pose_surplus"), out_of(few, kPoses) - 24 * 8);
+    PlannerConfig config;
+    config.search.grasps_per_axis = 9;
+    EXPECT_GT(out_of(planned(request, config), kGraded), 24U * 9U);
+    request.options.min_clearance_m = 1e-4;
+    const PlanReply all = planned(request);
+    EXPECT_EQ(rejections_of(all, "pose_surplus"), 0U);
+    EXPECT_GT(out_of(all, kGraded), 24U * 16U);
+}
+
 TEST(Plan, ComesWithinTheApproachCones) {
     PlanRequest request = request_for(test::box({0.06, 0.04, 0.08}, 500));
     const Vector3d down = -Vector3d::UnitZ();

@@ -15,7 +15,7 @@ std::uint64_t heap_bytes(const std::vector<T>& items) {
 /// Memory that a text takes outside itself [bytes]; none for a short one.
 inline std::uint64_t heap_bytes(const std::string& text) {
     const auto* begin = reinterpret_cast<const char*>(&text);
-    const bool inside = text.data() >= begin && text.data() < begin + sizeof text;
+    const bool inside = text.data() >= begin && text.data() < begin + sizeof(std::string);
     return inside ? 0 : std::uint64_t{text.capacity()} + 1;
 }
 

@@ -30,6 +30,7 @@ const KNOWN = {
     axis_leans: ['untried', 'The surface leans too far from the closing direction.'],
     axis_similar: ['untried', 'Like an axis on which a grasp was found.'],
     axis_surplus: ['untried', 'The search had found enough before it came to this axis.'],
+    pose_surplus: ['untried', 'Enough poses of its axis had given a grasp before it.'],
 };
 
 const MOVERS = { palm: 'The palm', finger: 'A finger', approach: 'The approaching hand',
