@@ -10,6 +10,9 @@
 namespace graspd::planner_detail {
 namespace {
 
+// Where a line touches an edge from both sides; less apart, the places no longer tell the
+// direction.
+constexpr double kLeastWidth_m = 1e-6;
 constexpr double kSameBadness_rad = 1e-7;  // less is rounding: then the order of axes decides
 
 constexpr const char* kTooWide = "axis_too_wide";
@@ -67,7 +70,9 @@ const char* probe(ProbedAxis& probed, const Judgement& judgement) {
         widest_touch(judgement.object, axis.right_P, -closing, length_m, config.manipulability);
     if (!left || !right) return "axis_no_contact";
     const double width_m = closing.dot(right->point_P - left->point_P);
-    if (width_m <= judgement.gripper.min_width_m) return "axis_no_contact";
+    if (width_m <= std::max(judgement.gripper.min_width_m, kLeastWidth_m)) {
+        return "axis_no_contact";
+    }
     const double lean_rad = std::max(angle_between_rad(closing, -left->normal_P),
                                      angle_between_rad(closing, right->normal_P));
     if (lean_rad > config.opposite_candidates.max_lean_rad) return "axis_leans";
