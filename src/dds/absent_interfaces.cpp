@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <fastdds/rtps/transport/UDPTransportDescriptor.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPFinder.h>
 
 namespace graspd::dds {
@@ -27,7 +27,7 @@ std::string absent_interfaces(const eprosima::fastdds::dds::DomainParticipantQos
     };
     for (const auto& transport : qos.transport().user_transports) {
         const auto* udp =
-            dynamic_cast<const eprosima::fastdds::rtps::UDPTransportDescriptor*>(transport.get());
+            dynamic_cast<const eprosima::fastdds::rtps::UDPv4TransportDescriptor*>(transport.get());
         if (udp == nullptr || udp->interfaceWhiteList.empty()) continue;
         if (std::ranges::any_of(udp->interfaceWhiteList, is_here)) continue;
         std::string absent;

@@ -6,8 +6,8 @@
 
 namespace graspd::dds {
 
-/// The addresses that a UDP transport of a participant is limited to (interfaceWhiteList), when no
-/// interface of this machine has any of them and is up; separated by commas. Empty when there is
+/// The addresses that a UDPv4 transport of a participant is limited to (interfaceWhiteList), when
+/// no interface of this machine has any of them and is up; separated by commas. Empty when there is
 /// no such transport.
 ///
 /// Fast DDS 2.9 binds such a transport to an address of nobody and never looks again: the
