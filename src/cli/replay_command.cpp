@@ -92,7 +92,8 @@ std::string as_table(const std::vector<ReplyDifference>& differences) {
     if (differences.empty()) return "the same reply\n";
     std::string text;
     for (const auto& [what, recorded, replayed] : differences) {
-        text += what + "\n    recorded: " + recorded + "\n    replayed: " + replayed + "\n";
+        text.append(what).append("\n    recorded: ").append(recorded);
+        text.append("\n    replayed: ").append(replayed).append("\n");
     }
     return text;
 }

@@ -102,7 +102,7 @@ Eigen::Vector3d read_finite(const geometry::Vector3_& vector, const std::string&
 
 Eigen::Vector3d read_unit(const geometry::Vector3_& vector, const std::string& field,
                           FirstError& errors) {
-    const Eigen::Vector3d direction(vector.x(), vector.y(), vector.z());
+    Eigen::Vector3d direction(vector.x(), vector.y(), vector.z());
     const double length = direction.norm();
     check_unit(length, field, errors);
     if (std::abs(length - 1.0) <= kExact) return direction;
