@@ -27,12 +27,12 @@ class AgedCell : public CGAL::Advancing_front_surface_reconstruction_cell_base_3
 
 public:
     template <class Tds>
-    struct Rebind_TDS {
+    struct Rebind_TDS {  // NOLINT(readability-identifier-naming): CGAL's
         using Other = AgedCell<typename Base::template Rebind_TDS<Tds>::Other>;
     };
     using Parent::Parent;
 
-    using Has_timestamp = CGAL::Tag_true;
+    using Has_timestamp = CGAL::Tag_true;  // NOLINT(readability-identifier-naming)
     std::size_t time_stamp() const { return age_; }
     void set_time_stamp(std::size_t age) { age_ = age; }
 
@@ -48,7 +48,7 @@ class NumberedVertex
 
 public:
     template <class Tds>
-    struct Rebind_TDS {
+    struct Rebind_TDS {  // NOLINT(readability-identifier-naming): CGAL's
         using Other = NumberedVertex<typename Base::template Rebind_TDS<Tds>::Other>;
     };
     using Parent::Parent;
@@ -74,7 +74,7 @@ public:
     private:
         std::pair<std::size_t, std::size_t> ends_;
     };
-    using Radius_ptr_type = FrontEntry;
+    using Radius_ptr_type = FrontEntry;  // NOLINT(readability-identifier-naming)
 };
 
 using Triangulation = CGAL::Delaunay_triangulation_3<

@@ -26,7 +26,7 @@ std::string process_name() {
 
 }  // namespace
 
-Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config) {
+Result<Setup> read_setup(const DaemonArguments& arguments, const DaemonConfig& config) {
     const auto domain = choose_domain(arguments.domain);
     if (!domain.ok()) return domain.error();
     const auto profiles = find_profiles();

@@ -21,6 +21,6 @@ struct Setup {
 
 /// Reads profiles, grippers and what the environment says.
 /// @return kUnreadableFile or kInvalidInput naming the file, or the setting and its value
-Result<Setup> read_setup(const DaemonArguments& arguments, DaemonConfig config);
+Result<Setup> read_setup(const DaemonArguments& arguments, const DaemonConfig& config);
 
 }  // namespace graspd::server
