@@ -102,11 +102,6 @@ std::string strategy_of(const PlanReply& reply) {
     return whole == std::ssize(reply.grasps) ? "whole_object" : "mixed";
 }
 
-const StageReport* stage_of(const PlanReply& reply, const std::string& name) {
-    const auto found = std::ranges::find(reply.report.stages, name, &StageReport::name);
-    return found == reply.report.stages.end() ? nullptr : &*found;
-}
-
 bool same_bits(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
     return a.matrix() == b.matrix();
 }
@@ -197,15 +192,22 @@ void expect_consistent(const PlanReply& reply, const PlanRequest& request,
     }
 }
 
+const StageReport* stage_of(const PlanReply& reply, const std::string& name) {
+    const auto found = std::ranges::find(reply.report.stages, name, &StageReport::name);
+    return found == reply.report.stages.end() ? nullptr : &*found;
+}
+
+std::uint64_t out_of(const PlanReply& reply, const std::string& stage) {
+    const StageReport* found = stage_of(reply, stage);
+    return found == nullptr ? 0 : found->out;
+}
+
 void expect_counts_add_up(const PlanReply& reply, const PlannerConfig& config) {
     const auto in = [&](const char* name) {
         const StageReport* stage = stage_of(reply, name);
         return stage == nullptr ? 0 : stage->in;
     };
-    const auto out = [&](const char* name) {
-        const StageReport* stage = stage_of(reply, name);
-        return stage == nullptr ? 0 : stage->out;
-    };
+    const auto out = [&](const char* name) { return out_of(reply, name); };
     Fallen fallen(reply);
     const std::uint64_t axes = out("grasp/grasp_candidates") + out("grasp/opposite_candidates");
     const std::uint64_t tried = in("planner/find_poses");

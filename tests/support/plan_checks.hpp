@@ -31,4 +31,10 @@ void expect_identical(const PlanReply& a, const PlanReply& b);
 /// Count of a typed reason, 0 when it is missing.
 std::uint64_t rejections_of(const PlanReply& reply, const std::string& reason);
 
+/// What the reply tells of a stage; null when the stage is not in it.
+const StageReport* stage_of(const PlanReply& reply, const std::string& name);
+
+/// What came out of a stage, 0 when it is not in the reply.
+std::uint64_t out_of(const PlanReply& reply, const std::string& stage);
+
 }  // namespace graspd::test

@@ -18,6 +18,7 @@ namespace graspd {
 namespace {
 
 using Eigen::Vector3d;
+using test::out_of;
 using test::planned;
 using test::rejections_of;
 using test::request_for;
@@ -55,11 +56,8 @@ TEST(Plan, UsesTheConcavityMethodOfTheConfig) {
     config.tetrahedral_concavity.cell_size = 0.05;
     const PlanReply reply = planned(request, config);
     EXPECT_EQ(reply.status, PlanStatus::kOk) << reply.message;
-    const auto has_stage = [&](const char* name) {
-        return std::ranges::count(reply.report.stages, name, &StageReport::name) > 0;
-    };
-    EXPECT_TRUE(has_stage("concavity/tetrahedral_concavity"));
-    EXPECT_FALSE(has_stage("concavity/shortest_path_concavity"));
+    EXPECT_NE(test::stage_of(reply, "concavity/tetrahedral_concavity"), nullptr);
+    EXPECT_EQ(test::stage_of(reply, "concavity/shortest_path_concavity"), nullptr);
     config.tetrahedral_concavity.max_cells = 10;
     const PlanReply refused = plan(request, config);
     EXPECT_EQ(refused.status, PlanStatus::kInvalidRequest);
@@ -75,13 +73,6 @@ TEST(Plan, ReturnsNoMoreThanAreAskedFor) {
         ASSERT_EQ(reply.status, PlanStatus::kOk);
         EXPECT_EQ(reply.grasps.size() == most, most < 1000U);
     }
-}
-
-/// What came out of a stage.
-std::uint64_t out_of(const PlanReply& reply, const char* name) {
-    const auto& stages = reply.report.stages;
-    const auto stage = std::ranges::find(stages, name, &StageReport::name);
-    return stage == stages.end() ? 0 : stage->out;
 }
 
 // A hand gets to a ball from all sides, and nearly every pose that it gets to holds. Of each of

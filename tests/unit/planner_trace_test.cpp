@@ -15,6 +15,7 @@ namespace graspd {
 namespace {
 
 using Eigen::Vector3d;
+using test::out_of;
 
 struct TracedPlan {
     PlanReply reply;
@@ -61,11 +62,6 @@ void expect_counts_of_the_reply(const TracedPlan& plan) {
     EXPECT_EQ(counts.size(), plan.reply.report.rejections.size());
 }
 
-std::uint64_t out_of(const PlanReply& reply, const std::string& stage) {
-    const auto found = std::ranges::find(reply.report.stages, stage, &StageReport::name);
-    return found == reply.report.stages.end() ? 0 : found->out;
-}
-
 TEST(PlanTrace, HasAsManyCandidatesOfEachReasonAsTheReplyCounts) {
     for (const PlanRequest& request : {hourglass(), demanding()}) {
         const TracedPlan plan = traced(request);
@@ -99,9 +95,8 @@ TEST(PlanTrace, StageCountsAreThoseOfWhatItHolds) {
     const auto balanced = std::ranges::count_if(plan.trace.candidates, [](const auto& candidate) {
         return !std::isnan(candidate.beta_rad);
     });
-    const auto& stages = plan.reply.report.stages;
-    const auto balance = std::ranges::find(stages, "grasp/force_balance", &StageReport::name);
-    ASSERT_NE(balance, stages.end());
+    const auto* balance = test::stage_of(plan.reply, "grasp/force_balance");
+    ASSERT_NE(balance, nullptr);
     EXPECT_LE(balanced, std::ssize(plan.trace.candidates));
     EXPECT_EQ(static_cast<std::uint64_t>(balanced),
               balance->in - counts_of(plan.trace)["side_not_straight"]);
