@@ -7,12 +7,6 @@ include(CMakePackageConfigHelpers)
 
 set(graspd_config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/graspd)
 
-foreach(library graspd_core graspd_dds graspd_simulate)
-  if(TARGET ${library})
-    set_target_properties(${library} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
-  endif()
-endforeach()
-
 # graspd_install(EXPORT target...): the ones that exist.
 function(graspd_install export)
   foreach(target ${ARGN})

@@ -12,8 +12,8 @@ constexpr int kAxisBits = CurvePlace::kBits / 3;
 
 /// The cell at a place along an axis. What is too far for a float has no place, a NaN: cell 0.
 std::uint32_t cell_at(float place) {
-    constexpr auto kCells = static_cast<float>(1 << kAxisBits);
-    return place >= 0.0F && place < kCells ? static_cast<std::uint32_t>(place) : 0u;
+    constexpr auto kPlaces = static_cast<float>(1 << kAxisBits);
+    return place >= 0.0F && place < kPlaces ? static_cast<std::uint32_t>(place) : 0u;
 }
 
 /// Puts two zeros before each of the lowest ten bits.

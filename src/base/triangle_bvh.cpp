@@ -10,7 +10,7 @@ namespace graspd {
 namespace {
 
 // Single precision rounds by 6e-8; coordinates stay below 1, so three roundings fit in here.
-constexpr float kPad = 5e-7F;
+constexpr float kRayPad = 5e-7F;
 
 bool has_area(const Eigen::Vector3d& edge1, const Eigen::Vector3d& edge2) {
     return edge1.cross(edge2).squaredNorm() > 0.0;
@@ -29,7 +29,7 @@ TriangleBvh::TriangleBvh(const TriangleMesh& mesh, double tolerance_m)
     diagonal_m_ = bounds_.diagonal().norm();
     units_per_m_ = 1.0 / diagonal_m_;
     middle_ = bounds_.center();
-    const float pad_units = static_cast<float>(tolerance_m / diagonal_m_) + kPad;
+    const float pad_units = static_cast<float>(tolerance_m / diagonal_m_) + kRayPad;
     margin_ = static_cast<float>(tolerance_m / diagonal_m_) + kRounding;
     stop_point();
     std::vector<Eigen::Array4f> units(mesh.vertices.size(), Eigen::Array4f::Zero());

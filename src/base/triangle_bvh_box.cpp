@@ -13,7 +13,7 @@ namespace graspd {
 namespace {
 
 // Single precision rounds by 6e-8; a coordinate has come through some ten roundings at the most.
-constexpr float kPad = 2e-6F;
+constexpr float kBoxPad = 2e-6F;
 
 /// Four numbers by each axis.
 using Lanes3 = std::array<Eigen::Array4f, 3>;
@@ -24,14 +24,14 @@ using Lanes3 = std::array<Eigen::Array4f, 3>;
 struct TriangleBvh::Vicinity {
     Eigen::Matrix3f axes, spread;
     Eigen::Vector3f center, half, reach;  ///< half along its own axes, reach along the world's
-    float pad = kPad;                     ///< of a coordinate's rounding
+    float pad = kBoxPad;                  ///< of a coordinate's rounding
 
     Vicinity(const OrientedBox& box, double within_m, const TriangleBvh& bvh) {
         const Eigen::Vector3d place =
             (box.pose.translation() - bvh.bounds_.center()) / bvh.diagonal_m_;
         const Eigen::Vector3d size = box.half_extent / bvh.diagonal_m_;
         // Rounding in single precision must not lose a face that touches.
-        pad = kPad * static_cast<float>(1.0 + place.norm() + size.norm());
+        pad = kBoxPad * static_cast<float>(1.0 + place.norm() + size.norm());
         const double grown = within_m / bvh.diagonal_m_ + static_cast<double>(pad);
         axes = box.pose.linear().cast<float>();
         spread = axes.cwiseAbs();

@@ -8,7 +8,7 @@
 namespace graspd::cli {
 namespace {
 
-using Json = nlohmann::json;
+using ReadJson = nlohmann::json;
 
 // As on the wire: what was rounded to three decimals still passes.
 constexpr double kTolerance = 1e-3;
@@ -36,7 +36,7 @@ void read_pose(JsonMembers& in, Eigen::Isometry3d& to) {
 }
 
 void read_motion(JsonMembers& in, const char* key, LinearMotion& to) {
-    const Json* node = in.find(key);
+    const ReadJson* node = in.find(key);
     if (node == nullptr) return;
     JsonMembers motion(*node, in.path_of(key));
     motion.numbers<3>("direction", to.direction_F);
@@ -45,7 +45,7 @@ void read_motion(JsonMembers& in, const char* key, LinearMotion& to) {
 }
 
 void read_contacts(JsonMembers& in, std::array<Contact, 2>& to) {
-    const Json* list = in.array("contacts");
+    const ReadJson* list = in.array("contacts");
     if (list == nullptr) return;
     if (list->size() != to.size()) return in.fail("contacts", *list, "must be two");
     for (std::size_t i = 0; i < to.size(); ++i) {
@@ -66,7 +66,7 @@ void read_hand_pose(JsonMembers& in, const Gripper* given, Grasp& to) {
         return in.fail(in.path_of("hand_pose") +
                        " is missing; it follows from the gripper: say it by --gripper NAME|FILE");
     }
-    const Json* node = in.find("hand_pose");
+    const ReadJson* node = in.find("hand_pose");
     if (node == nullptr) return;
     JsonMembers pose(*node, in.path_of("hand_pose"));
     read_pose(pose, to.X_FH);
@@ -81,7 +81,7 @@ void read_hand_pose(JsonMembers& in, const Gripper* given, Grasp& to) {
 }
 
 void read_terms(JsonMembers& in, std::vector<ScoreTerm>& to) {
-    const Json* node = in.find("terms");
+    const ReadJson* node = in.find("terms");
     if (node == nullptr) return;
     JsonMembers terms(*node, in.path_of("terms"));
     for (const auto& [name, unused] : node->items()) {
@@ -106,7 +106,7 @@ void read_source(JsonMembers& in, GraspSource& to) {
 
 void read_tolerance(JsonMembers& in, std::optional<PoseTolerance>& to) {
     if (!in.has("tolerance")) return;  // older files lack it
-    const Json* node = in.find("tolerance");
+    const ReadJson* node = in.find("tolerance");
     if (node == nullptr || node->is_null()) return;
     JsonMembers tolerance(*node, in.path_of("tolerance"));
     PoseTolerance read;
@@ -117,7 +117,7 @@ void read_tolerance(JsonMembers& in, std::optional<PoseTolerance>& to) {
 }
 
 void read_concavity(JsonMembers& in, Grasp& to) {
-    const Json* node = in.find("concavity");
+    const ReadJson* node = in.find("concavity");
     if (node == nullptr) return;
     JsonMembers concavity(*node, in.path_of("concavity"));
     concavity.integer("index", to.concavity_index);
@@ -125,7 +125,7 @@ void read_concavity(JsonMembers& in, Grasp& to) {
     in.take(concavity.error());
 }
 
-std::optional<PlanError> read_grasp(const Json& node, std::size_t index, const Gripper* given,
+std::optional<PlanError> read_grasp(const ReadJson& node, std::size_t index, const Gripper* given,
                                     GraspFile& to) {
     JsonMembers in(node, "grasps[" + std::to_string(index) + "]");
     Grasp& grasp = to.grasps.emplace_back();
@@ -151,9 +151,9 @@ std::optional<PlanError> read_grasp(const Json& node, std::size_t index, const G
 }
 
 void read_travel(JsonMembers& in, std::vector<PadTravel>& to) {
-    const Json* list = in.array("pad_travel");
+    const ReadJson* list = in.array("pad_travel");
     if (list == nullptr) return;
-    for (const Json& row : *list) {
+    for (const ReadJson& row : *list) {
         JsonMembers travel(row, in.path_of("pad_travel[" + std::to_string(to.size()) + "]"));
         PadTravel& read = to.emplace_back();
         travel.number("opening", read.opening_m);
@@ -162,7 +162,7 @@ void read_travel(JsonMembers& in, std::vector<PadTravel>& to) {
     }
 }
 
-Result<Gripper> read_gripper(const Json& node) {
+Result<Gripper> read_gripper(const ReadJson& node) {
     JsonMembers in(node, "gripper");
     Gripper gripper;
     in.text("name", gripper.name);
@@ -197,7 +197,7 @@ void check_kind(JsonMembers& in) {
     }
 }
 
-Result<GraspFile> read_reply(const Json& node, const Gripper* given) {
+Result<GraspFile> read_reply(const ReadJson& node, const Gripper* given) {
     JsonMembers in(node, "");
     GraspFile file;
     check_kind(in);
@@ -205,9 +205,9 @@ Result<GraspFile> read_reply(const Json& node, const Gripper* given) {
     in.text("frame_id", file.frame_id);
     in.text("status", file.status);
     in.text("message", file.message);
-    const Json* grasps = in.array("grasps");
+    const ReadJson* grasps = in.array("grasps");
     if (in.error()) return *in.error();
-    for (const Json& grasp : *grasps) {
+    for (const ReadJson& grasp : *grasps) {
         if (auto error = read_grasp(grasp, file.grasps.size(), given, file)) {
             return *std::move(error);
         }
@@ -220,8 +220,8 @@ Result<GraspFile> read_reply(const Json& node, const Gripper* given) {
 
 Result<GraspFile> read_grasps(const std::string& text, const Gripper* given) {
     try {
-        return read_reply(Json::parse(text), given);
-    } catch (const Json::exception& error) {
+        return read_reply(ReadJson::parse(text), given);
+    } catch (const ReadJson::exception& error) {
         return PlanError{PlanErrorCode::kInvalidInput,
                          std::string("cannot be read as JSON: ") + error.what()};
     }

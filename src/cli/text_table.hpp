@@ -14,6 +14,8 @@ struct TextTable {
 /// The table as lines of text, columns two blanks apart, no blanks at the ends of lines.
 std::string print_table(const TextTable& table);
 
+inline constexpr double kMillimetres = 1e3;  ///< a metre in what people read
+
 /// A number with a fixed count of decimals: fixed(0.0345, 1, 1e3) == "34.5".
 std::string fixed(double value, int decimals, double factor = 1.0);
 

@@ -10,7 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMillimetres = 1e3;
 constexpr double kSquareCentimetres = 1e4;
 constexpr double kCubicCentimetres = 1e6;
 

@@ -27,7 +27,6 @@ std::string write_simulation_json(const std::string& plan_json, const Simulation
 }
 
 std::string write_simulation_line(const PlanReply& reply, const SimulationRun& run) {
-    constexpr double kMillimetres = 1e3;
     constexpr double kDegrees = 180.0 / std::numbers::pi;
     const SimulationResult& result = run.result;
     std::string text = reply.request_id + ": " + to_string(result.verdict) + ": grasp " +

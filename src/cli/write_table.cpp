@@ -8,7 +8,6 @@
 namespace graspd::cli {
 namespace {
 
-constexpr double kMillimetres = 1e3;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 std::string triple(const Eigen::Vector3d& vector, int decimals, double factor) {

@@ -19,8 +19,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using eprosima::fastrtps::types::ReturnCode_t;
-using RequestType = GuardedType<wire::GraspRequest_PubSubType>;
-using ReplyType = GuardedType<wire::RankedGrasps_PubSubType>;
+using ClientRequestType = GuardedType<wire::GraspRequest_PubSubType>;
+using ClientReplyType = GuardedType<wire::RankedGrasps_PubSubType>;
 
 constexpr auto kFirstPause = std::chrono::milliseconds(50);  // after OVERLOADED; doubles
 constexpr auto kLongestPause = std::chrono::milliseconds(1000);
@@ -102,12 +102,13 @@ public:
         participant_ = std::move(joined).value();
         guard_->max_payload_bytes = settings.max_payload_bytes;
         const auto* reader = participant_->create_reader(
-            {settings.names.ranked_grasps, fast::TypeSupport(new ReplyType(guard_)), kReplyEnds},
+            {settings.names.ranked_grasps, fast::TypeSupport(new ClientReplyType(guard_)),
+             kReplyEnds},
             &listener_);
-        writer_ =
-            participant_->create_writer({settings.names.grasp_request,
-                                         fast::TypeSupport(new RequestType(guard_)), kRequestEnds},
-                                        &listener_);
+        writer_ = participant_->create_writer(
+            {settings.names.grasp_request, fast::TypeSupport(new ClientRequestType(guard_)),
+             kRequestEnds},
+            &listener_);
         if (writer_ != nullptr && reader != nullptr) return std::nullopt;
         return PlanError{PlanErrorCode::kInternal, "the middleware refused an endpoint"};
     }

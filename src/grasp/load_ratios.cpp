@@ -6,10 +6,10 @@
 
 #include <Eigen/Geometry>
 
+#include "graspd/base/gravity.hpp"
+
 namespace graspd {
 namespace {
-
-constexpr double kGravity_m_s2 = 9.81;
 
 double ratio(double load, double capacity) {
     return capacity > 0.0 ? load / capacity : std::numeric_limits<double>::infinity();

@@ -5,10 +5,11 @@
 #include <limits>
 #include <numbers>
 
+#include "graspd/base/gravity.hpp"
+
 namespace graspd {
 namespace {
 
-constexpr double kGravity_m_s2 = 9.81;
 // Beyond these a grasp is no better for being better and no worse for being worse.
 constexpr double kLeastRatio = 0.05, kGreatestRatio = 20.0;
 

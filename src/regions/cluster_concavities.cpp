@@ -20,7 +20,7 @@ using Indices = std::vector<std::uint32_t>;
 
 // Grid neighbours lie at whole multiples of the spacing: distances that equal a limit up to
 // rounding are within it.
-constexpr double kTie = 1.0 + 1e-5;
+constexpr double kReachTie = 1.0 + 1e-5;
 
 PlanError invalid(const std::string& detail) {
     return {PlanErrorCode::kInvalidInput, "cluster_concavities: " + detail};
@@ -89,7 +89,7 @@ Indices surroundings(std::span<const SurfaceSample> samples, const Indices& sali
     Eigen::AlignedBox3d near;
     for (const Eigen::Vector3d& point : points) near.extend(point);
     // A little more than the reach: the distance decides, the box only saves asking for it.
-    const Eigen::Vector3d pad = Eigen::Vector3d::Constant(reach_m * kTie);
+    const Eigen::Vector3d pad = Eigen::Vector3d::Constant(reach_m * kReachTie);
     near = Eigen::AlignedBox3d(near.min() - pad, near.max() + pad);
     Indices outside, around;
     std::ranges::set_difference(enlarged, salient, std::back_inserter(outside));
@@ -115,8 +115,8 @@ std::vector<Concavity> find_concavities(std::span<const SurfaceSample> samples,
                                         const ConcaveAreas& areas, double spacing_m,
                                         const ClusterConcavitiesConfig& config) {
     std::vector<Concavity> concavities;
-    for (Indices& cluster :
-         euclidean_clusters(samples, areas.salient, config.tolerance_spacings * spacing_m * kTie)) {
+    for (Indices& cluster : euclidean_clusters(samples, areas.salient,
+                                               config.tolerance_spacings * spacing_m * kReachTie)) {
         if (cluster.size() < config.min_samples) continue;
         Concavity& concavity = concavities.emplace_back();
         concavity.salient = std::move(cluster);
@@ -132,7 +132,7 @@ std::vector<Concavity> find_concavities(std::span<const SurfaceSample> samples,
         for (std::size_t i = first; i < last; ++i) {
             Concavity& concavity = concavities[i];
             concavity.enlarged = surroundings(samples, concavity.salient, enlarged, spacing_m,
-                                              config.enlargement_spacings * spacing_m * kTie);
+                                              config.enlargement_spacings * spacing_m * kReachTie);
         }
     });
     return concavities;

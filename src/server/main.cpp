@@ -12,6 +12,7 @@
 #include "daemon_log.hpp"
 #include "daemon_setup.hpp"
 #include "describe_state.hpp"
+#include "exit_on_abort.hpp"
 #include "graspd/base/freed_memory.hpp"
 #include "graspd/config/load_config.hpp"
 #include "graspd/config/version.hpp"
@@ -242,6 +243,7 @@ int serve(const Setup& setup, const sigset_t& signals) {
     if (record != nullptr) close_recorder(*record);
     const int code = is_worn_out ? kExitInternal : 0;
     if (!ended) std::_Exit(code);  // a planner that does not stop must not keep the process
+    exit_on_abort(code);           // the middleware is left to leave the domain
     return code;
 }
 

@@ -70,8 +70,8 @@ public:
         const double cell = std::max(config.cell_m, std::sqrt(area / double(kMostCells)));
         for (const std::size_t k : {0u, 1u}) {
             const double length = size[k == 0 ? u() : v()];
-            cells_[k] = std::max(1, static_cast<int>(length / cell));
-            step_[k] = length / cells_[k];
+            cells_[k] = std::max<Eigen::Index>(1, static_cast<Eigen::Index>(length / cell));
+            step_[k] = length / static_cast<double>(cells_[k]);
         }
         pressure_.resize(static_cast<std::size_t>(cells_[0] * cells_[1]));
     }
@@ -100,13 +100,14 @@ public:
 private:
     Eigen::Index u() const { return (axis_ + 1) % 3; }
     Eigen::Index v() const { return (axis_ + 2) % 3; }
-    int cell_of(double place, std::size_t k) const {
+    Eigen::Index cell_of(double place, std::size_t k) const {
         const double half = core_[k == 0 ? u() : v()];
-        return std::clamp(static_cast<int>((place + half) / step_[k]), 0, cells_[k] - 1);
+        const auto cell = static_cast<Eigen::Index>((place + half) / step_[k]);
+        return std::clamp<Eigen::Index>(cell, 0, cells_[k] - 1);
     }
-    std::array<double, 2> range(int cell, std::size_t k) const {
-        const double low = -core_[k == 0 ? u() : v()];
-        return {low + cell * step_[k], low + (cell + 1) * step_[k]};
+    std::array<double, 2> range(Eigen::Index cell, std::size_t k) const {
+        const double low = -core_[k == 0 ? u() : v()], begin = static_cast<double>(cell);
+        return {low + begin * step_[k], low + (begin + 1.0) * step_[k]};
     }
 
     void share_out(const Polygon& polygon) {
@@ -115,11 +116,11 @@ private:
             low = low.cwiseMin(polygon.corner[i]);
             high = high.cwiseMax(polygon.corner[i]);
         }
-        const int first[] = {cell_of(low[u()], 0), cell_of(low[v()], 1)};
-        const int last[] = {cell_of(high[u()], 0), cell_of(high[v()], 1)};
-        for (int i = first[0]; i <= last[0]; ++i) {
+        const Eigen::Index first[] = {cell_of(low[u()], 0), cell_of(low[v()], 1)};
+        const Eigen::Index last[] = {cell_of(high[u()], 0), cell_of(high[v()], 1)};
+        for (Eigen::Index i = first[0]; i <= last[0]; ++i) {
             const Polygon row = first[0] == last[0] ? polygon : clipped(polygon, u(), range(i, 0));
-            for (int j = first[1]; j <= last[1] && row.count > 2; ++j) {
+            for (Eigen::Index j = first[1]; j <= last[1] && row.count > 2; ++j) {
                 const Polygon cell = first[1] == last[1] ? row : clipped(row, v(), range(j, 1));
                 if (cell.count > 2)
                     press(pressure_[static_cast<std::size_t>(i * cells_[1] + j)], cell);
@@ -143,7 +144,7 @@ private:
     double sign_;
     Vector3d core_;
     double rounding_m_;
-    std::array<int, 2> cells_{};
+    std::array<Eigen::Index, 2> cells_{};
     std::array<double, 2> step_{};
     std::vector<Pressure> pressure_;
 };

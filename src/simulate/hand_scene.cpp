@@ -46,8 +46,8 @@ Matrix3d matrix_at(const mjtNum* numbers) {
 
 Isometry3d geom_pose(const mjData* data, int geom) {
     Isometry3d pose = Isometry3d::Identity();
-    pose.linear() = matrix_at(data->geom_xmat + 9 * geom);
-    pose.translation() = vector_at(data->geom_xpos + 3 * geom);
+    pose.linear() = matrix_at(data->geom_xmat + std::ptrdiff_t{9} * geom);
+    pose.translation() = vector_at(data->geom_xpos + std::ptrdiff_t{3} * geom);
     return pose;
 }
 
@@ -58,7 +58,7 @@ int collide(const mjModel* model, const mjData* data, mjContact* contacts, int o
     if (running == nullptr) return 0;
     const Isometry3d X_FB = geom_pose(data, object);
     const OrientedBox box_B{X_FB.inverse(Eigen::Isometry) * geom_pose(data, box),
-                            vector_at(model->geom_size + 3 * box)};
+                            vector_at(model->geom_size + std::ptrdiff_t{3} * box)};
     const auto found = box_contacts(running->mesh_B, running->bvh, box_B);
     const int count = std::min(static_cast<int>(found.size()), mjMAXCONPAIR);
     for (int i = 0; i < count; ++i) {
@@ -200,7 +200,7 @@ void HandScene::set_grip_force(double force_N) {
 void HandScene::set_object_damping(double rate_1_s) {
     mjModel& model = *physics_->model;
     const double mass = model.body_mass[kObjectBody];
-    const double inertia = vector_at(model.body_inertia + 3 * kObjectBody).mean();
+    const double inertia = vector_at(model.body_inertia + std::ptrdiff_t{3} * kObjectBody).mean();
     for (int k = 0; k < 6; ++k) {
         model.dof_damping[kObjectDof + k] = rate_1_s * (k < 3 ? mass : inertia);
     }

@@ -95,7 +95,7 @@ std::string scene_text(const PictureScene& scene, const std::vector<GripperPart>
            part_text(parts[2], warm) + "</worldbody></mujoco>";
 }
 
-Drawing::Drawing(const std::string& text, const std::array<mjtByte, 3 * kTexels>& texels) {
+Drawing::Drawing(const std::string& text, const Texels& texels) {
     mjv_defaultScene(&scene);
     mjv_defaultOption(&option);
     mjv_defaultCamera(&camera);

@@ -45,6 +45,7 @@ private:
 /// current OpenGL context. Throws std::runtime_error.
 struct Drawing {
     static constexpr int kTexels = 256;  ///< of the texture that `shares` are places in
+    using Texels = std::array<mjtByte, std::size_t{3} * kTexels>;  ///< red, green, blue of each
     static constexpr int kMostDots = 30000;
 
     mjModel* model = nullptr;
@@ -54,8 +55,7 @@ struct Drawing {
     mjvCamera camera{};
     mjrContext context{};
 
-    /// @param texels  red, green, blue of the texture
-    Drawing(const std::string& scene_text, const std::array<mjtByte, 3 * kTexels>& texels);
+    Drawing(const std::string& scene_text, const Texels& texels);
     ~Drawing();
     Drawing(const Drawing&) = delete;
     Drawing& operator=(const Drawing&) = delete;

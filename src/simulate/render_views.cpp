@@ -15,13 +15,13 @@ using simulate_detail::Drawing;
 using simulate_detail::Stage;
 
 /// Blue, cyan, green, yellow, red: the paper's Fig. 3f, the colours of the report page.
-std::array<mjtByte, 3 * Drawing::kTexels> scale_texels() {
+Drawing::Texels scale_texels() {
     constexpr std::array<std::array<double, 3>, 5> kStops = {{{0.16, 0.30, 0.75},
                                                               {0.15, 0.62, 0.75},
                                                               {0.35, 0.75, 0.35},
                                                               {0.95, 0.80, 0.25},
                                                               {0.85, 0.15, 0.12}}};
-    std::array<mjtByte, 3 * Drawing::kTexels> texels{};
+    Drawing::Texels texels{};
     for (std::size_t i = 0; i < Drawing::kTexels; ++i) {
         const double place = 4.0 * static_cast<double>(i) / (Drawing::kTexels - 1);
         const std::size_t low = std::min<std::size_t>(static_cast<std::size_t>(place), 3);

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "graspd/base/gravity.hpp"
 #include "graspd/collision/gripper_collision.hpp"
 #include "graspd/collision/manipulability.hpp"
 #include "hand_motion.hpp"
@@ -21,7 +22,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Phase = SimulationPhase;
 
-constexpr double kGravity_m_s2 = 9.81;
 constexpr double kSqueeze_s = 0.1;       // the grip force comes on
 constexpr double kFloatRate_1_s = 10.0;  // the floating object's motion dies away in 0.1 s
 constexpr double kLost_s = 0.05;         // without touch: the object may bounce for a moment

@@ -16,6 +16,7 @@ using test::Bytes;
 using test::loopback_settings;
 using test::payload_of;
 using test::SharedRequest;
+using test::no_answer;
 using test::StubPlanner;
 using test::verdict;
 
@@ -98,7 +99,7 @@ TEST(MalformedPayloads, PayloadAboveTheCapIsRefusedByName) {
     DdsSettings settings = loopback_settings();
     const Bytes good = good_payload();
     settings.max_payload_bytes = static_cast<std::uint32_t>(good.size()) + 1000;
-    StubPlanner planner([](const SharedRequest&) { return nullptr; }, settings);
+    StubPlanner planner(no_answer, settings);
     test::RawClient raw;
     ASSERT_TRUE(raw.wait_matched());
     auto sample = dds::write_request(test::full_request(), "raw").value();

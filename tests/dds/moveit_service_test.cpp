@@ -15,6 +15,7 @@ using test::Bytes;
 using test::payload_of;
 using test::RawClient;
 using test::SharedRequest;
+using test::no_grasp;
 using test::StubPlanner;
 using test::verdict;
 using test::with_header;
@@ -60,9 +61,6 @@ std::unique_ptr<OutgoingReply> one_grasp(const SharedRequest& request) {
     grasp.retreat = {Eigen::Vector3d::UnitZ(), 0.25};
     grasp.score = 0.5;
     return reply;
-}
-std::unique_ptr<OutgoingReply> none(const SharedRequest& request) {
-    return verdict(request, PlanStatus::kNoGrasp, "none");
 }
 
 moveit_msgs::msg::dds_::GripperTranslation_ moved(const Eigen::Vector3d& direction,
@@ -127,7 +125,7 @@ TEST(MoveItService, AnswersBothVendorsInTheLayoutOfHumble) {
 }
 
 TEST(MoveItService, SaysWhyThereIsNoGrasp) {
-    StubPlanner planner(none, moveit_settings());
+    StubPlanner planner(no_grasp, moveit_settings());
     RawClient caller(moveit_topics());
     ASSERT_TRUE(caller.wait_matched());
     ASSERT_EQ(caller.call(payload_of(ball("ball"))), 1u);
@@ -139,7 +137,7 @@ TEST(MoveItService, SaysWhyThereIsNoGrasp) {
 // A call is a request like any other: who asked, under which name, for what; the same bytes again
 // are another call.
 TEST(MoveItService, EveryCallIsARequestOfItsOwn) {
-    StubPlanner planner(none, moveit_settings());
+    StubPlanner planner(no_grasp, moveit_settings());
     RawClient caller(moveit_topics());
     ASSERT_TRUE(caller.wait_matched());
     const Bytes plain = payload_of(ball("ball"));
@@ -161,7 +159,7 @@ TEST(MoveItService, EveryCallIsARequestOfItsOwn) {
 }
 
 TEST(MoveItService, MalformedCallsAreRefusedAndCounted) {
-    StubPlanner planner(none, moveit_settings());
+    StubPlanner planner(no_grasp, moveit_settings());
     RawClient caller(moveit_topics());
     ASSERT_TRUE(caller.wait_matched());
     const Bytes plain = payload_of(ball("ball"));
@@ -184,7 +182,7 @@ TEST(MoveItService, ACallAboveTheCapIsAnswered) {
     for (int i = 0; i < 100; ++i) large.movable_obstacles().push_back(large.target());
     DdsSettings settings = moveit_settings();
     settings.max_payload_bytes = static_cast<std::uint32_t>(payload_of(ball("ball")).size()) + 100;
-    StubPlanner planner(none, settings);
+    StubPlanner planner(no_grasp, settings);
     RawClient caller(moveit_topics());
     ASSERT_TRUE(caller.wait_matched());
     ASSERT_NE(caller.call(payload_of(large)), 0u);
@@ -198,13 +196,13 @@ TEST(MoveItService, ACallAboveTheCapIsAnswered) {
 }
 
 TEST(MoveItService, MayBeOff) {
-    StubPlanner planner(none, moveit_settings(MoveItCodes::kOff));
+    StubPlanner planner(no_grasp, moveit_settings(MoveItCodes::kOff));
     RawClient asks_the_planner(test::service_topics());
     RawClient caller(moveit_topics());
     ASSERT_TRUE(asks_the_planner.wait_matched());
     {
         // By the time the caller has found this planner, it would have found the one before it.
-        StubPlanner another(none, moveit_settings());
+        StubPlanner another(no_grasp, moveit_settings());
         ASSERT_TRUE(caller.wait_matched());
     }
     EXPECT_TRUE(caller.wait_alone());

@@ -89,13 +89,9 @@ private:
     std::unique_ptr<PlannerPort> port_;  // last: its handlers use the rest
 };
 
-std::unique_ptr<OutgoingReply> none(const SharedRequest& request) {
-    return test::verdict(request, PlanStatus::kNoGrasp, "none");
-}
-
 TEST(Peers, OneServesFromItsFirstWordUntilItStops) {
     Watcher watcher;
-    StubPlanner other(none, watching());
+    StubPlanner other(test::no_grasp, watching());
     EXPECT_NE(other.port().id(), watcher.port().id());
     PlannerState state;
     ASSERT_TRUE(watcher.port().write_state(state));
@@ -109,7 +105,7 @@ TEST(Peers, OneServesFromItsFirstWordUntilItStops) {
 
 TEST(Peers, OneThatIsFullServes) {
     Watcher watcher;
-    StubPlanner other(none, watching());
+    StubPlanner other(test::no_grasp, watching());
     PlannerState state;
     state.mode = PlannerState::Mode::kFull;
     ASSERT_TRUE(other.port().write_state(state));
@@ -120,7 +116,7 @@ TEST(Peers, OneThatLeavesServesNoMore) {
     Watcher watcher;
     GuidBytes id{};
     {
-        StubPlanner other(none, watching());
+        StubPlanner other(test::no_grasp, watching());
         id = other.port().id();
         ASSERT_TRUE(other.port().write_state({}));
         ASSERT_TRUE(watcher.wait_serves(id, true));
@@ -132,7 +128,7 @@ TEST(Peers, OneThatLeavesServesNoMore) {
 // answers bears the key of the request that this one holds.
 TEST(Peers, RepliesOfOthersNameTheRequestThatOneHolds) {
     Watcher watcher;
-    StubPlanner other(none, watching());
+    StubPlanner other(test::no_grasp, watching());
     RawClient topic;
     RawClient caller(test::service_topics());
     ASSERT_TRUE(topic.wait_matched(2));
@@ -153,7 +149,7 @@ TEST(Peers, RepliesOfOthersNameTheRequestThatOneHolds) {
 
 // One that came after the reply holds its request no longer than until it hears of it.
 TEST(Peers, RepliesFromBeforeAreHeardOf) {
-    StubPlanner other(none, watching());
+    StubPlanner other(test::no_grasp, watching());
     RawClient topic;
     ASSERT_TRUE(topic.wait_matched());
     ASSERT_TRUE(topic.write(call_bytes("early")));

@@ -17,6 +17,7 @@ using test::full_request;
 using test::loopback_settings;
 using test::SharedRequest;
 using test::small_request;
+using test::no_answer;
 using test::StubPlanner;
 using test::verdict;
 using testing::HasSubstr;
@@ -113,7 +114,7 @@ TEST(PlannerClient, RetryAfterSilenceIsTheSameRequest) {
 }
 
 TEST(PlannerClient, SilenceToEveryAttemptIsNoReply) {
-    StubPlanner planner([](const SharedRequest&) { return nullptr; });
+    StubPlanner planner(no_answer);
     const auto client = open_client();
     ASSERT_TRUE(client->wait_for_planner(10s));
     const auto reply = client->request(small_request(), 50ms, 2);

@@ -22,6 +22,7 @@ using test::loopback_settings;
 using test::payload_of;
 using test::RawClient;
 using test::SharedRequest;
+using test::no_answer;
 using test::StubPlanner;
 using test::verdict;
 
@@ -78,7 +79,7 @@ TEST(PlannerPort, ReplyEchoesTheRequestAndNamesThePlanner) {
 
 // The identity's hash is that of the payload, worked out here from the bytes that were sent.
 TEST(PlannerPort, IdentityHoldsTheHashOfTheBytes) {
-    StubPlanner planner([](const SharedRequest&) { return nullptr; });
+    StubPlanner planner(no_answer);
     RawClient raw;
     ASSERT_TRUE(raw.wait_matched());
     const Bytes bytes = payload_of(wire_request());

@@ -21,6 +21,7 @@ using test::Bytes;
 using test::loopback_settings;
 using test::RawClient;
 using test::SharedRequest;
+using test::no_answer;
 using test::StubPlanner;
 using testing::SizeIs;
 namespace now = rmw_dds_common::msg::dds_;
@@ -47,10 +48,6 @@ Info parsed(Bytes payload, const char* type) {
     Info info;
     EXPECT_TRUE(dds::read_cdr(payload, *dds::wire_layouts().find(type), info));
     return info;
-}
-
-std::unique_ptr<OutgoingReply> no_answer(const SharedRequest&) {
-    return nullptr;
 }
 
 // Readers: requests, cancellations, service calls. Writers: replies, status, diagnostics, markers,

@@ -36,13 +36,13 @@ dds::wire::RankedGrasps_ parsed(Bytes bytes) {
     return out;
 }
 
-std::unique_ptr<OutgoingReply> none(const SharedRequest& request) {
+std::unique_ptr<OutgoingReply> none_for(const SharedRequest& request) {
     return verdict(request, PlanStatus::kNoGrasp, "none for " + request->identity().request_id);
 }
 
 // rmw_fastrtps: the members alone; the reply names the caller's reader and its number of the call.
 TEST(Service, AnswersInTheStyleOfRmwFastrtps) {
-    StubPlanner planner(none);
+    StubPlanner planner(none_for);
     RawClient caller(service_topics());
     ASSERT_TRUE(caller.wait_matched());
     ASSERT_EQ(caller.call(payload_of(wire_request("first"))), 1u);
@@ -60,7 +60,7 @@ TEST(Service, AnswersInTheStyleOfRmwFastrtps) {
 
 // rmw_cyclonedds: a header before the members, which comes back byte for byte before the reply's.
 TEST(Service, AnswersInTheStyleOfRmwCyclonedds) {
-    StubPlanner planner(none);
+    StubPlanner planner(none_for);
     RawClient caller(service_topics());
     ASSERT_TRUE(caller.wait_matched());
     const Bytes call =
@@ -78,7 +78,7 @@ TEST(Service, AnswersInTheStyleOfRmwCyclonedds) {
 
 // The two styles ask for the same thing, and get the same members back.
 TEST(Service, BothStylesAreOneService) {
-    StubPlanner planner(none);
+    StubPlanner planner(none_for);
     RawClient caller(service_topics());
     ASSERT_TRUE(caller.wait_matched());
     const Bytes plain = payload_of(wire_request("same"));
@@ -94,7 +94,7 @@ TEST(Service, BothStylesAreOneService) {
 
 // The service tells calls apart by itself: who calls it by hand need not think of an id.
 TEST(Service, ACallWithoutAnIdGetsItsNumber) {
-    StubPlanner planner(none);
+    StubPlanner planner(none_for);
     RawClient caller(service_topics());
     ASSERT_TRUE(caller.wait_matched());
     auto request = wire_request("x");
@@ -109,7 +109,7 @@ TEST(Service, ACallWithoutAnIdGetsItsNumber) {
 }
 
 TEST(Service, MalformedCallsAreRefusedAndCounted) {
-    StubPlanner planner(none);
+    StubPlanner planner(none_for);
     RawClient caller(service_topics());
     ASSERT_TRUE(caller.wait_matched());
     const Bytes plain = payload_of(wire_request("good"));
@@ -134,7 +134,7 @@ TEST(Service, ACallAboveTheCapIsRefusedByName) {
     large.mesh().vertices().resize(1000);
     DdsSettings settings = test::loopback_settings();
     settings.max_payload_bytes = static_cast<std::uint32_t>(small.size()) + 1000;
-    StubPlanner planner(none, settings);
+    StubPlanner planner(none_for, settings);
     RawClient caller(service_topics());
     ASSERT_TRUE(caller.wait_matched());
     ASSERT_NE(caller.call(payload_of(large)), 0u);

@@ -13,6 +13,7 @@ using test::loopback_settings;
 using test::payload_of;
 using test::RawClient;
 using test::SharedRequest;
+using test::no_answer;
 using test::StubPlanner;
 using testing::ElementsAre;
 
@@ -34,10 +35,6 @@ PlannerState sample_state() {
     state.abandoned_plans = 21;
     state.grippers = {"one", "two"};
     return state;
-}
-
-std::unique_ptr<OutgoingReply> no_answer(const SharedRequest&) {
-    return nullptr;
 }
 
 // The state was written before there was a reader: transient local.

@@ -86,4 +86,12 @@ inline std::unique_ptr<OutgoingReply> verdict(const SharedRequest& to, PlanStatu
     return reply;
 }
 
+/// What a StubPlanner may do with each request: say that there is no grasp, or nothing.
+inline std::unique_ptr<OutgoingReply> no_grasp(const SharedRequest& request) {
+    return verdict(request, PlanStatus::kNoGrasp, "none");
+}
+inline std::unique_ptr<OutgoingReply> no_answer(const SharedRequest&) {
+    return nullptr;
+}
+
 }  // namespace graspd::test

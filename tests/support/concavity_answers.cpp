@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/shape_builders.hpp"
 #include "support/shapes.hpp"
 #include "support/tunnels.hpp"
 #include "support/vases.hpp"
@@ -13,8 +14,6 @@ namespace graspd::test {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kNear = 1e-9;  // [m] rounding of vertices that lie on a plane of the shape
 
 double radius(const Vector3d& p) {
     return std::hypot(p.x(), p.y());

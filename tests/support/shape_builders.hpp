@@ -10,6 +10,8 @@
 
 namespace graspd::test {
 
+inline constexpr double kNear = 1e-9;  ///< [m] rounding of vertices that lie on a given surface
+
 /// Solid of cells in a grid with planes at lines[0..2]: cell (i, j, k) spans
 /// lines[0][i]..lines[0][i + 1] and so on. Its surface is cut into about `faces` right triangles,
 /// conforming, closed and outward oriented. Cells may not touch in an edge or corner alone.

@@ -9,7 +9,7 @@
 namespace graspd::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Appends points of an arc about (0, z) in the profile plane, angles from the +r axis.
 void add_arc(std::vector<Eigen::Vector2d>& profile, double radius, double z, double from, double to,
@@ -17,7 +17,7 @@ void add_arc(std::vector<Eigen::Vector2d>& profile, double radius, double z, dou
     for (int i = 0; i <= parts; ++i) {
         const double angle = from + (to - from) * i / parts;
         // On the axis exactly: cos(pi/2) is not 0 in floating point.
-        const bool pole = std::abs(std::abs(angle) - 0.5 * kPi) < 1e-9;
+        const bool pole = std::abs(std::abs(angle) - 0.5 * pi) < 1e-9;
         profile.emplace_back(pole ? 0.0 : radius * std::cos(angle), z + radius * std::sin(angle));
     }
 }
@@ -25,8 +25,8 @@ void add_arc(std::vector<Eigen::Vector2d>& profile, double radius, double z, dou
 /// Parts of an arc whose chords are about as long as triangles of the mesh.
 int arc_parts(double radius, double length, double largest_radius, std::size_t faces) {
     const double spacing =
-        std::sqrt(4.0 * kPi * largest_radius * length / static_cast<double>(faces));
-    return std::max(6, static_cast<int>(std::lround(kPi * radius / spacing)));
+        std::sqrt(4.0 * pi * largest_radius * length / static_cast<double>(faces));
+    return std::max(6, static_cast<int>(std::lround(pi * radius / spacing)));
 }
 
 /// Grid lines at +- half of each size, sizes rising.
@@ -47,8 +47,8 @@ TriangleMesh box(const Eigen::Vector3d& size_m, std::size_t faces) {
 
 TriangleMesh sphere(double radius_m, std::size_t faces) {
     std::vector<Eigen::Vector2d> profile;
-    add_arc(profile, radius_m, 0.0, -0.5 * kPi, 0.5 * kPi,
-            arc_parts(radius_m, kPi * radius_m, radius_m, faces));
+    add_arc(profile, radius_m, 0.0, -0.5 * pi, 0.5 * pi,
+            arc_parts(radius_m, pi * radius_m, radius_m, faces));
     return lathe(profile, false, faces);
 }
 
@@ -103,20 +103,20 @@ TriangleMesh cup(double radius_m, double height_m, double thickness_m, std::size
 
 TriangleMesh bowl(double radius_m, double thickness_m, std::size_t faces) {
     const double inner = radius_m - thickness_m;
-    const double length = 0.5 * kPi * (radius_m + inner) + thickness_m;
+    const double length = 0.5 * pi * (radius_m + inner) + thickness_m;
     const int parts = (arc_parts(radius_m, length, radius_m, faces) + 1) / 2;
     std::vector<Eigen::Vector2d> profile;
-    add_arc(profile, radius_m, 0.0, -0.5 * kPi, 0.0, parts);
-    add_arc(profile, inner, 0.0, 0.0, -0.5 * kPi, parts);
+    add_arc(profile, radius_m, 0.0, -0.5 * pi, 0.0, parts);
+    add_arc(profile, inner, 0.0, 0.0, -0.5 * pi, parts);
     return lathe(profile, false, faces);
 }
 
 TriangleMesh torus(double ring_m, double tube_m, std::size_t faces) {
     const int parts =
-        2 * arc_parts(tube_m, 2.0 * kPi * tube_m, ring_m + tube_m, faces);  // even: pole rings
+        2 * arc_parts(tube_m, 2.0 * pi * tube_m, ring_m + tube_m, faces);  // even: pole rings
     std::vector<Eigen::Vector2d> profile;
     for (int i = 0; i < parts; ++i) {
-        const double phi = 2.0 * kPi * i / parts;
+        const double phi = 2.0 * pi * i / parts;
         profile.emplace_back(ring_m + tube_m * std::cos(phi), tube_m * std::sin(phi));
     }
     return lathe(profile, true, faces);
@@ -125,11 +125,11 @@ TriangleMesh torus(double ring_m, double tube_m, std::size_t faces) {
 TriangleMesh dumbbell(double ball_radius_m, double bar_radius_m, double distance_m,
                       std::size_t faces) {
     const double meet = std::asin(bar_radius_m / ball_radius_m);  // half angle under the bar
-    const double length = 2.0 * kPi * ball_radius_m + distance_m - 2.0 * ball_radius_m;
+    const double length = 2.0 * pi * ball_radius_m + distance_m - 2.0 * ball_radius_m;
     const int parts = arc_parts(ball_radius_m, length, ball_radius_m, faces);
     std::vector<Eigen::Vector2d> profile;
-    add_arc(profile, ball_radius_m, -0.5 * distance_m, -0.5 * kPi, 0.5 * kPi - meet, parts);
-    add_arc(profile, ball_radius_m, 0.5 * distance_m, meet - 0.5 * kPi, 0.5 * kPi, parts);
+    add_arc(profile, ball_radius_m, -0.5 * distance_m, -0.5 * pi, 0.5 * pi - meet, parts);
+    add_arc(profile, ball_radius_m, 0.5 * distance_m, meet - 0.5 * pi, 0.5 * pi, parts);
     return lathe(profile, false, faces);
 }
 

@@ -14,7 +14,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kNear = 1e-9;      // [m] rounding of vertices that lie on a plane of the shape
 constexpr double kWidth = 0.02;     // [m] of the tunnel
 constexpr double kCeiling = 0.035;  // [m] depth of the ceiling of the leg along x (3-D: at y = 0)
 constexpr double kFloor = kCeiling + kWidth;  // [m] depth of its floor

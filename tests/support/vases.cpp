@@ -14,8 +14,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kNear = 1e-9;        // [m] rounding of vertices that lie on the profile
 constexpr double kLipRadius = 0.006;  // [m] of the arc
 constexpr double kLipRing = 0.026;    // [m] radius of the arc's centre
 constexpr double kLipHeight = 0.115;  // [m] of the arc's centre
@@ -37,7 +35,8 @@ void add_lip(std::vector<Vector2d>& line, double from_deg, double to_deg, int pa
     const int count =
         std::max(1, static_cast<int>(std::ceil(std::abs(to_deg - from_deg) / 90.0 * parts)));
     for (int i = 0; i <= count; ++i) {
-        const double angle = (from_deg + (to_deg - from_deg) * i / count) * kPi / 180.0;
+        const double angle =
+            (from_deg + (to_deg - from_deg) * i / count) * std::numbers::pi / 180.0;
         line.emplace_back(kLipRing + kLipRadius * std::cos(angle),
                           kLipHeight + kLipRadius * std::sin(angle));
     }
@@ -136,8 +135,8 @@ VaseAnswer twisted_vase_answer(std::size_t faces) {
 
 VaseAnswer::VaseAnswer(int parts, int sides, bool twisted)
     : profile_(parts),
-      factor_(twisted ? std::cos(1.5 * kPi / sides) : 1.0),
-      side_factor_(twisted ? 1.0 : std::cos(kPi / sides)),
+      factor_(twisted ? std::cos(1.5 * std::numbers::pi / sides) : 1.0),
+      side_factor_(twisted ? 1.0 : std::cos(std::numbers::pi / sides)),
       twisted_(twisted),
       full_(profile_.wall(1.0)),
       small_(profile_.wall(factor_)) {}

@@ -26,7 +26,7 @@ RosArguments ros(Words words) {
     return taken.ok() ? std::move(taken).value() : RosArguments{};
 }
 
-std::string error_of(Words words) {
+std::string refusal_of(Words words) {
     words.insert(words.begin(), {"--workers", "--ros-args"});
     const Words before = words;
     const auto taken = take_ros_arguments(words);
@@ -83,22 +83,22 @@ TEST(TakeRosArguments, LongAndShortOptionsAndThoseThatAreIgnored) {
 }
 
 TEST(TakeRosArguments, AWrongWordOrValueIsNamedAndNothingIsTaken) {
-    EXPECT_THAT(error_of({"--workers", "2"}), HasSubstr("unknown argument --workers"));
-    EXPECT_THAT(error_of({"a:=b"}), HasSubstr("unknown argument a:=b"));
-    EXPECT_THAT(error_of({"-r", "a:=b", "-p"}), HasSubstr("no value after -p"));
-    EXPECT_THAT(error_of({"-r", "--"}), HasSubstr("remapping rule = --"));
-    EXPECT_THAT(error_of({"-r", "a*:=b"}), HasSubstr("remapping rule = a*:=b"));
-    EXPECT_THAT(error_of({"-e", "a"}), HasSubstr("--enclave = a must start with '/'"));
-    EXPECT_THAT(error_of({"--log-level", "loud"}), HasSubstr("--log-level loud"));
-    EXPECT_THAT(error_of({"--log-level", "warning"}), HasSubstr("debug, info, warn, error"));
-    EXPECT_THAT(error_of({"--log-level", ":=info"}), HasSubstr("--log-level :=info"));
-    EXPECT_THAT(error_of({"--log-level", "other:=loud"}), HasSubstr("--log-level other:=loud"));
+    EXPECT_THAT(refusal_of({"--workers", "2"}), HasSubstr("unknown argument --workers"));
+    EXPECT_THAT(refusal_of({"a:=b"}), HasSubstr("unknown argument a:=b"));
+    EXPECT_THAT(refusal_of({"-r", "a:=b", "-p"}), HasSubstr("no value after -p"));
+    EXPECT_THAT(refusal_of({"-r", "--"}), HasSubstr("remapping rule = --"));
+    EXPECT_THAT(refusal_of({"-r", "a*:=b"}), HasSubstr("remapping rule = a*:=b"));
+    EXPECT_THAT(refusal_of({"-e", "a"}), HasSubstr("--enclave = a must start with '/'"));
+    EXPECT_THAT(refusal_of({"--log-level", "loud"}), HasSubstr("--log-level loud"));
+    EXPECT_THAT(refusal_of({"--log-level", "warning"}), HasSubstr("debug, info, warn, error"));
+    EXPECT_THAT(refusal_of({"--log-level", ":=info"}), HasSubstr("--log-level :=info"));
+    EXPECT_THAT(refusal_of({"--log-level", "other:=loud"}), HasSubstr("--log-level other:=loud"));
     for (const char* bad : {":=", ":=bar", "1", "1:=2", "~:=1", "__ns:=foo", ":__node:=x", "a.:=1",
                             ".a:=1", "a..b:=1", "a.7:=1", "a/7:=1", "}foo:=1", "f oo:=1", "*:=1"}) {
-        EXPECT_THAT(error_of({"-p", bad}), AllOf(HasSubstr(bad), HasSubstr("NAME:=VALUE")));
+        EXPECT_THAT(refusal_of({"-p", bad}), AllOf(HasSubstr(bad), HasSubstr("NAME:=VALUE")));
     }
     for (const char* bad : {"a:=", "a:=~", "a:=[1, 2]", "a:={b: 1}", "a:=[1", "a:=# 1"}) {
-        EXPECT_THAT(error_of({"-p", bad}), AllOf(HasSubstr(bad), HasSubstr("one YAML scalar")));
+        EXPECT_THAT(refusal_of({"-p", bad}), AllOf(HasSubstr(bad), HasSubstr("one YAML scalar")));
     }
 }
 

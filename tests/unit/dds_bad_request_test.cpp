@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const double kNaN = std::numeric_limits<double>::quiet_NaN();
+const double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 const double kInfinity = std::numeric_limits<double>::infinity();
 
 struct BadField {
@@ -76,7 +76,7 @@ const BadField kBadFields[] = {
      },
      {"object_pose[0].orientation", "1.002"}},
     {"NaNQuaternion",
-     [](Wire& r) { r.object_pose()[0].orientation().x(kNaN); },
+     [](Wire& r) { r.object_pose()[0].orientation().x(kNotANumber); },
      {"object_pose[0].orientation", "nan"}},
     {"InfinitePosition",
      [](Wire& r) { r.object_pose()[0].position().y(-kInfinity); },
@@ -92,7 +92,7 @@ const BadField kBadFields[] = {
      [](Wire& r) { r.grippers()[0].max_width(0); },
      {"grippers[0]", "max_width = 0"}},
     {"NaNGripper",
-     [](Wire& r) { r.grippers()[1].palm_depth(kNaN); },
+     [](Wire& r) { r.grippers()[1].palm_depth(kNotANumber); },
      {"grippers[1]", "palm_depth"}},
     {"FallingTravel",
      [](Wire& r) { r.grippers()[1].pad_travel()[1].opening(0.001); },
@@ -112,7 +112,7 @@ const BadField kBadFields[] = {
     {"NaNPart",
      [](Wire& r) {
          r.grippers()[0].finger_right_meshes().push_back(
-             write_mesh({{{0, 0, 0}, {1, 0, 0}, {0, kNaN, 0}, {1, 1, 1}}, {}}));
+             write_mesh({{{0, 0, 0}, {1, 0, 0}, {0, kNotANumber, 0}, {1, 1, 1}}, {}}));
      },
      {"grippers[0].finger_right_meshes[0]", "not finite"}},
     {"ManyParts",
@@ -125,7 +125,7 @@ const BadField kBadFields[] = {
      },
      {"support_plane[0].normal", "0.998"}},
     {"NaNOffset",
-     [](Wire& r) { r.support_plane()[0].offset(kNaN); },
+     [](Wire& r) { r.support_plane()[0].offset(kNotANumber); },
      {"support_plane[0].offset", "nan"}},
     {"ManyObstacles", [](Wire& r) { r.obstacles().resize(65); }, {"obstacles has 65", "64"}},
     {"EmptyObstacle", [](Wire& r) { r.obstacles()[1].mesh({}); }, {"obstacles[1].mesh"}},
@@ -133,7 +133,7 @@ const BadField kBadFields[] = {
      [](Wire& r) { r.obstacles()[1].pose().orientation({}); },
      {"obstacles[1].pose.orientation", "length 0"}},
     {"ObstaclePosition",
-     [](Wire& r) { r.obstacles()[0].pose().position().x(kNaN); },
+     [](Wire& r) { r.obstacles()[0].pose().position().x(kNotANumber); },
      {"obstacles[0].pose.position", "nan"}},
     {"ObstacleCloud",
      [](Wire& r) {
@@ -150,7 +150,9 @@ const BadField kBadFields[] = {
     {"WideCone", [](Wire& r) { r.approach_cones()[0].half_angle(3.2); }, {"half_angle = 3.2"}},
     {"ManyBoxes", [](Wire& r) { r.keep_out_boxes().resize(65); }, {"keep_out_boxes has 65"}},
     {"FlatBox", [](Wire& r) { r.keep_out_boxes()[0].size().y(0); }, {"keep_out_boxes[0].size"}},
-    {"NaNBox", [](Wire& r) { r.keep_out_boxes()[0].size().x(kNaN); }, {"keep_out_boxes[0].size"}},
+    {"NaNBox",
+     [](Wire& r) { r.keep_out_boxes()[0].size().x(kNotANumber); },
+     {"keep_out_boxes[0].size"}},
     {"BoxPose",
      [](Wire& r) { r.keep_out_boxes()[0].pose().orientation({}); },
      {"keep_out_boxes[0].pose.orientation"}},
@@ -167,7 +169,9 @@ const BadField kBadFields[] = {
     {"NoFriction",
      [](Wire& r) { r.options()[0].friction(0); },
      {"options[0].friction = 0", "(0, 10]"}},
-    {"NaNFriction", [](Wire& r) { r.options()[0].friction(kNaN); }, {"options[0].friction = nan"}},
+    {"NaNFriction",
+     [](Wire& r) { r.options()[0].friction(kNotANumber); },
+     {"options[0].friction = nan"}},
     {"NegativeClearance",
      [](Wire& r) { r.options()[0].min_clearance(-0.001); },
      {"options[0].min_clearance = -0.001"}},
@@ -182,7 +186,7 @@ const BadField kBadFields[] = {
      [](Wire& r) { r.options()[0].center_of_mass().resize(2); },
      {"options[0].center_of_mass has 2"}},
     {"NaNCentre",
-     [](Wire& r) { r.options()[0].center_of_mass()[0].z(kNaN); },
+     [](Wire& r) { r.options()[0].center_of_mass()[0].z(kNotANumber); },
      {"options[0].center_of_mass[0]", "nan"}},
     {"TwoForces",
      [](Wire& r) {

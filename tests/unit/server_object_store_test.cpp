@@ -83,7 +83,7 @@ PreparedObjectPtr prepared(const ObjectGeometry& geometry) {
 }
 
 TEST(ObjectStore, APreparedObjectCountsAndLeavesWithItsGeometry) {
-    const ObjectGeometry box = test::box({0.06, 0.04, 0.02}, 300);
+    const ObjectGeometry box = graspd::test::box({0.06, 0.04, 0.02}, 300);
     const PreparedObjectPtr of_box = prepared(box);
     const std::uint64_t bytes = geometry_bytes(box) + memory_bytes(*of_box);
     ObjectStore store(bytes + 24);
@@ -98,7 +98,7 @@ TEST(ObjectStore, APreparedObjectCountsAndLeavesWithItsGeometry) {
 }
 
 TEST(ObjectStore, APreparedObjectWithoutRoomIsLeftOut) {
-    const ObjectGeometry box = test::box({0.06, 0.04, 0.02}, 300);
+    const ObjectGeometry box = graspd::test::box({0.06, 0.04, 0.02}, 300);
     ObjectStore store(geometry_bytes(box) + 10);
     store.put("box", box, prepared(box));
     EXPECT_NE(store.find("box").geometry, nullptr);
@@ -107,7 +107,7 @@ TEST(ObjectStore, APreparedObjectWithoutRoomIsLeftOut) {
 }
 
 TEST(ObjectStore, OfTwoPreparedAtOnceTheFirstStays) {
-    const ObjectGeometry box = test::box({0.06, 0.04, 0.02}, 300);
+    const ObjectGeometry box = graspd::test::box({0.06, 0.04, 0.02}, 300);
     const PreparedObjectPtr first = prepared(box);
     ObjectStore store(1 << 20);
     store.put("box", box, nullptr);
