@@ -12,14 +12,14 @@
 namespace graspd::cli {
 namespace {
 
-std::string text_of(double value) {
+std::string shown(double value) {
     char digits[32];
     std::snprintf(digits, sizeof digits, "%.9g", value);
     return digits;
 }
 
-std::string text_of(const Eigen::Vector3d& v) {
-    return text_of(v.x()) + " " + text_of(v.y()) + " " + text_of(v.z());
+std::string shown(const Eigen::Vector3d& v) {
+    return shown(v.x()) + " " + shown(v.y()) + " " + shown(v.z());
 }
 
 /// The differences found so far.
@@ -31,7 +31,7 @@ struct Comparison {
     }
     void numbers(const std::string& what, double a, double b) {
         const bool same = a == b || (std::isnan(a) && std::isnan(b));
-        if (!same) found.push_back({what, text_of(a), text_of(b) + " (" + text_of(b - a) + ")"});
+        if (!same) found.push_back({what, shown(a), shown(b) + " (" + shown(b - a) + ")"});
     }
     void counts(const std::string& what, std::uint64_t a, std::uint64_t b) {
         texts(what, std::to_string(a), std::to_string(b));
@@ -39,14 +39,14 @@ struct Comparison {
     void poses(const std::string& what, const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
         if (a.translation() != b.translation()) {
             const double off_mm = 1e3 * (a.translation() - b.translation()).norm();
-            found.push_back({what + ": position", text_of(a.translation()),
-                             text_of(b.translation()) + " (" + text_of(off_mm) + " mm)"});
+            found.push_back({what + ": position", shown(a.translation()),
+                             shown(b.translation()) + " (" + shown(off_mm) + " mm)"});
         }
         if (a.linear() != b.linear()) {
             const Eigen::AngleAxisd turn(a.linear().transpose() * b.linear());
             found.push_back(
                 {what + ": rotation", "",
-                 "turned by " + text_of(turn.angle() * 180.0 / std::numbers::pi) + " degrees"});
+                 "turned by " + shown(turn.angle() * 180.0 / std::numbers::pi) + " degrees"});
         }
     }
 };
@@ -73,16 +73,16 @@ void compare_rows(const std::string& what, const Rows& a, const Rows& b, Name na
     std::map<std::string, std::pair<std::string, std::string>> both;
     for (const auto& row : a) both[name(row)].first += value(row);
     for (const auto& row : b) both[name(row)].second += value(row);
-    const auto shown = [](const std::string& text) { return text.empty() ? "none" : text; };
+    const auto or_none = [](const std::string& text) { return text.empty() ? "none" : text; };
     for (const auto& [key, values] : both) {
-        to.texts((what + ' ').append(key), shown(values.first), shown(values.second));
+        to.texts((what + ' ').append(key), or_none(values.first), or_none(values.second));
     }
 }
 
 void compare_reports(const PlanReport& a, const PlanReport& b, Comparison& to) {
     compare_rows(
         "finding", a.findings, b.findings, [](const Finding& f) { return f.code; },
-        [](const Finding& f) { return text_of(f.value) + " " + f.detail; }, to);
+        [](const Finding& f) { return shown(f.value) + " " + f.detail; }, to);
     compare_rows(
         "rejections by", a.rejections, b.rejections,
         [](const RejectionCount& r) { return r.reason; },

@@ -121,7 +121,7 @@ Json gripper_of(const PlanReply& reply, std::span<const Gripper> grippers) {
 }
 
 /// Text from a request may be no UTF-8; such bytes become U+FFFD.
-std::string text_of(const Json& json) {
+std::string dumped(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -145,13 +145,13 @@ std::string write_json(const PlanReply& reply, std::span<const Gripper> grippers
         {"report", json_of(reply.report)},
         {"planner", {{"version", origin.version}, {"config_hash", origin.config_hash}}},
         {"timings_ms", {{"total", origin.total_ms}}}};
-    return text_of(json);
+    return dumped(json);
 }
 
 std::string write_json(std::span<const Gripper> grippers) {
     Json list = Json::array();
     for (const Gripper& gripper : grippers) list.push_back(json_of(gripper));
-    return text_of({{"schema", kSchema}, {"grippers", std::move(list)}});
+    return dumped({{"schema", kSchema}, {"grippers", std::move(list)}});
 }
 
 }  // namespace graspd::cli

@@ -11,7 +11,7 @@ namespace {
 
 // Boxes and planes are padded by what single precision may round away (coordinates stay below 1),
 // so that nothing nearer than the best found is ever skipped.
-constexpr float kPad = 1e-6F;
+constexpr float kPlanePad = 1e-6F;
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
 /// Squared distances from a point to the children's boxes; infinite for one that is not there.
@@ -26,7 +26,7 @@ Eigen::Array4f squared_distances(const BoxTree::Node& node, const Eigen::Array4f
     return sum;
 }
 
-struct Waiting {
+struct WaitingPlanes {
     std::uint32_t child;
     float distance;  ///< squared to the child's box, or along a ray
 };
@@ -37,7 +37,7 @@ public:
     explicit WaitingList(std::uint32_t root) { stack_[top_++] = {root, 0.0F}; }
 
     bool empty() const { return top_ == 0; }
-    Waiting take() { return stack_[--top_]; }
+    WaitingPlanes take() { return stack_[--top_]; }
 
     void push_children(const BoxTree::Node& node, unsigned lanes, const Eigen::Array4f& distances) {
         assert(top_ + 4 <= stack_.size());
@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    std::array<Waiting, BoxTree::kStackDepth> stack_;
+    std::array<WaitingPlanes, BoxTree::kStackDepth> stack_;
     std::size_t top_ = 0;
 };
 
@@ -89,7 +89,8 @@ HullPlaneTree::HullPlaneTree(const OuterHull& hull) : facets_(hull.facets) {
     std::vector<Box4f> boxes;
     boxes.reserve(facets_.size());
     for (const HullFacet& facet : facets_) {
-        boxes.push_back({to_units(facet.box.min()) - kPad, to_units(facet.box.max()) + kPad});
+        boxes.push_back(
+            {to_units(facet.box.min()) - kPlanePad, to_units(facet.box.max()) + kPlanePad});
     }
     tree_ = build_box_tree(boxes);
     if (BoxTree::is_leaf(tree_.root)) add_pack(tree_.root);
@@ -147,17 +148,17 @@ HullPlaneTree::Nearest HullPlaneTree::nearest(const Eigen::Vector3d& point,
         if (distance > best.distance_m) return;
         if (distance == best.distance_m && index > best.facet) return;
         best = {distance, index};
-        least = static_cast<float>(distance / diagonal_m_) + kPad;
+        least = static_cast<float>(distance / diagonal_m_) + kPlanePad;
     };
     consider(hint);
     WaitingList open(tree_.root);
     while (!open.empty()) {
-        const Waiting item = open.take();
+        const WaitingPlanes item = open.take();
         // The nearest plane's foot lies on its facet, hence in the facet's box.
         if (item.distance > least * least) continue;
         if (BoxTree::is_leaf(item.child)) {
             const Pack& pack = packs_[BoxTree::leaf_first(item.child)];
-            unsigned lanes = lanes_not_negative(least + kPad - pack.distances(unit));
+            unsigned lanes = lanes_not_negative(least + kPlanePad - pack.distances(unit));
             while (lanes != 0) consider(pack.facet[take_lane(lanes)]);
             continue;
         }
@@ -207,10 +208,11 @@ bool HullPlaneTree::gather(const Eigen::Vector3d& middle, double radius_m, std::
     vicinity.count = 0;
     const Eigen::Array4f unit = to_units(middle);
     const double near_m = std::max(0.0, facets_[near].offset_m - facets_[near].normal.dot(middle));
-    const float limit = static_cast<float>((near_m + 2.0 * radius_m) / diagonal_m_) + 2.0F * kPad;
+    const float limit =
+        static_cast<float>((near_m + 2.0 * radius_m) / diagonal_m_) + 2.0F * kPlanePad;
     WaitingList open(tree_.root);
     while (!open.empty()) {
-        const Waiting item = open.take();
+        const WaitingPlanes item = open.take();
         if (BoxTree::is_leaf(item.child)) {
             const Pack& pack = packs_[BoxTree::leaf_first(item.child)];
             unsigned lanes = lanes_not_negative(limit - pack.distances(unit));
@@ -237,7 +239,7 @@ HullPlaneTree::Nearest HullPlaneTree::nearest_of(const Vicinity& vicinity,
         distances[q] = vicinity.quads[q].distances(unit);
         least = least.min(distances[q]);
     }
-    const float limit = std::max(0.0F, least.minCoeff()) + 2.0F * kPad;
+    const float limit = std::max(0.0F, least.minCoeff()) + 2.0F * kPlanePad;
     Nearest best{std::numeric_limits<double>::infinity(), 0};
     for (std::size_t q = 0; q < quads; ++q) {
         unsigned lanes = lanes_not_negative(limit - distances[q]);
@@ -292,11 +294,11 @@ void HullPlaneTree::facets_ahead(const Eigen::Vector3d& point, double limit_m,
     const Eigen::Array4f unit = to_units(point);
     const Eigen::Array3f up = normal.cast<float>().array();
     const auto least_rise = static_cast<float>(-below);
-    float limit = static_cast<float>(limit_m / diagonal_m_) + 2.0F * kPad;
-    const float beside = static_cast<float>(beside_m / diagonal_m_) + kPad;
+    float limit = static_cast<float>(limit_m / diagonal_m_) + 2.0F * kPlanePad;
+    const float beside = static_cast<float>(beside_m / diagonal_m_) + kPlanePad;
     WaitingList open(tree_.root);
     while (!open.empty()) {
-        const Waiting item = open.take();
+        const WaitingPlanes item = open.take();
         if (item.distance > limit * limit) continue;
         if (BoxTree::is_leaf(item.child)) {
             const Pack& pack = packs_[BoxTree::leaf_first(item.child)];
@@ -316,7 +318,7 @@ void HullPlaneTree::facets_ahead(const Eigen::Vector3d& point, double limit_m,
                 facets.push_back(pack.facet[lane]);
                 nearest.note(distance[lane]);
             }
-            limit = std::min(limit, nearest.worst() + 2.0F * kPad);
+            limit = std::min(limit, nearest.worst() + 2.0F * kPlanePad);
             continue;
         }
         const BoxTree::Node& node = tree_.nodes[item.child];
@@ -340,7 +342,7 @@ std::uint32_t HullPlaneTree::exit(const Eigen::Vector3d& origin,
     std::uint32_t best = 0;
     WaitingList open(tree_.root);
     while (!open.empty()) {
-        const Waiting item = open.take();
+        const WaitingPlanes item = open.take();
         // Where the ray leaves the hull is a point of that facet, hence in the facet's box.
         if (item.distance > reach) continue;
         if (BoxTree::is_leaf(item.child)) {
@@ -355,7 +357,7 @@ std::uint32_t HullPlaneTree::exit(const Eigen::Vector3d& origin,
                 if (!nearer) continue;
                 nearest_m = there_m;
                 best = pack.facet[k];
-                reach = static_cast<float>(there_m / diagonal_m_) + kPad;
+                reach = static_cast<float>(there_m / diagonal_m_) + kPlanePad;
             }
             continue;
         }
@@ -369,7 +371,7 @@ std::uint32_t HullPlaneTree::exit(const Eigen::Vector3d& origin,
             enter = enter.max(low.min(high));
             leave = leave.min(low.max(high));
         }
-        open.push_children(node, lanes_not_negative(leave + kPad - enter), enter);
+        open.push_children(node, lanes_not_negative(leave + kPlanePad - enter), enter);
     }
     return best;
 }

@@ -14,7 +14,7 @@
 namespace graspd::concavity_detail {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoWay = std::numeric_limits<double>::infinity();
 constexpr double kBand = 2.0;  // mean edges: width of the values that are relaxed side by side
 constexpr int kMaxPull = 64;   // bends of one string; a longer one is pulled by later relaxations
 
@@ -42,7 +42,7 @@ PathSearch::PathSearch(const PathGround& ground, const HullPlaneTree& planes,
                        const TriangleBvh& bvh, const ConcavityConfig& config)
     : ground_(ground), planes_(planes), bvh_(bvh), config_(config) {
     const std::size_t count = ground.mesh.vertices.size();
-    field_.value_m.assign(count, kInfinity);
+    field_.value_m.assign(count, kNoWay);
     field_.flag.assign(count, ConcavityFlag::kEnclosed);
     field_.parent.assign(count, ConcavityField::kNoParent);
     stop_point();

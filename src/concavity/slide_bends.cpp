@@ -9,19 +9,19 @@
 namespace graspd::concavity_detail {
 namespace {
 
-constexpr std::size_t kMostBends = 6;  // of a way that slide; what follows stays
-constexpr int kEdgeRounds = 8;         // a bend that reaches an edge's end goes on along another
-constexpr int kInsertions = 4;         // of bends where a slid way is blocked
-constexpr int kHoldBacks = 2;          // halvings of how far the bends slide
+constexpr std::size_t kMostSliding = 6;  // of a way that slide; what follows stays
+constexpr int kEdgeRounds = 8;           // a bend that reaches an edge's end goes on along another
+constexpr int kInsertions = 4;           // of bends where a slid way is blocked
+constexpr int kHoldBacks = 2;            // halvings of how far the bends slide
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr double kSettled = 1e-5;        // [1] of the length that a round has to gain
-constexpr double kLeastSlide = 3e-4;     // [1] of the length that sliding may gain at most
-constexpr int kSettleRounds = 32;        // of bends in turn
-constexpr double kLeastLean = 0.1;       // sine; a flatter floor does not block the perpendicular
-constexpr double kLeastSlope = 0.5;      // cosine of a tilted way to the plane it leaves by
-constexpr int kTiltRounds = 6;           // halvings of the tilt
-constexpr double kLeastTiltGain = 1e-3;  // [1] of the value
-constexpr double kLeastGain = 1e-6;      // [1] of the value; less is not worth its rays
+constexpr double kSettled = 1e-5;          // [1] of the length that a round has to gain
+constexpr double kLeastSlide = 3e-4;       // [1] of the length that sliding may gain at most
+constexpr int kSettleRounds = 32;          // of bends in turn
+constexpr double kLeastLean = 0.1;         // sine; a flatter floor does not block the perpendicular
+constexpr double kLeastSlope = 0.5;        // cosine of a tilted way to the plane it leaves by
+constexpr int kTiltRounds = 6;             // halvings of the tilt
+constexpr double kLeastTiltGain = 1e-3;    // [1] of the value
+constexpr double kLeastShortening = 1e-6;  // [1] of the value; less is not worth its rays
 
 /// Where the way a, p, c is shortest for p = base + s * along on a line, along of unit length:
 /// c turned about the line into a's plane, on the other side, is seen from a in a straight line.
@@ -85,7 +85,7 @@ BendSlider::Chain BendSlider::chain_of(std::uint32_t vertex) const {
     chain.vertex = vertex;
     chain.start = vertices[vertex];
     chain.parent = field_.parent[vertex];
-    while (chain.parent >= 0 && chain.bends.size() < kMostBends) {
+    while (chain.parent >= 0 && chain.bends.size() < kMostSliding) {
         const auto bend = static_cast<std::uint32_t>(chain.parent);
         chain.bends.push_back({bend, bend, 0.0, vertices[bend]});
         chain.parent = field_.parent[bend];
@@ -267,7 +267,7 @@ bool BendSlider::drop_bends(std::uint32_t vertex, Chain& chain) const {
 /// Where the segment that ends at bend i dips below an edge beside it, puts a bend on that edge: a
 /// string that has slid off a vertex may lie over several of the vertex's edges.
 bool BendSlider::insert_bend(Chain& chain, std::size_t i) const {
-    if (i >= chain.bends.size() || chain.bends.size() >= 2 * kMostBends) return false;
+    if (i >= chain.bends.size() || chain.bends.size() >= 2 * kMostSliding) return false;
     const Eigen::Vector3d& from = chain.before(i);
     const Eigen::Vector3d& to = chain.bends[i].point;
     Bend best;
@@ -308,7 +308,7 @@ void BendSlider::hold_back(Chain& chain, double share) const {
 SlidWay BendSlider::slide(std::uint32_t vertex) const {
     SlidWay way{std::numeric_limits<double>::infinity(), {}, 0};
     if (field_.parent[vertex] < 0) return way;
-    const double most_m = field_.value_m[vertex] * (1.0 - kLeastGain);
+    const double most_m = field_.value_m[vertex] * (1.0 - kLeastShortening);
     Chain chain = chain_of(vertex);
     relax(chain);
     if (!(chain.length_m() < most_m)) return way;

@@ -26,7 +26,8 @@ struct Decision {
     std::string why;
 };
 
-PlanError refused(const std::string& variable, const std::string& value, const std::string& must) {
+PlanError refused_variable(const std::string& variable, const std::string& value,
+                           const std::string& must) {
     return {PlanErrorCode::kInvalidInput, variable + " = " + value + " " + must};
 }
 
@@ -76,15 +77,16 @@ Result<Decision> decide(const std::string& profile_option, const NetworkEnvironm
         if (*range == "LOCALHOST") return Decision{Reach::kLoopback, why};
         if (*range == "SYSTEM_DEFAULT") return Decision{Reach::kLoopbackWithoutPeers, why};
         if (*range == "OFF") {
-            return refused(kRange, *range,
-                           "lets nobody find graspd; set LOCALHOST or SUBNET, or give --profile");
+            return refused_variable(
+                kRange, *range,
+                "lets nobody find graspd; set LOCALHOST or SUBNET, or give --profile");
         }
-        return refused(kRange, *range, "must be SUBNET, LOCALHOST, SYSTEM_DEFAULT or OFF");
+        return refused_variable(kRange, *range, "must be SUBNET, LOCALHOST, SYSTEM_DEFAULT or OFF");
     }
     if (const auto& only = environment.localhost_only) {
         const std::string why = std::string(kLocalhostOnly) + " = " + *only;
         if (*only == "0") return Decision{Reach::kSubnet, why};
-        return refused(kLocalhostOnly, *only, "must be 0 or 1");
+        return refused_variable(kLocalhostOnly, *only, "must be 0 or 1");
     }
     return Decision{Reach::kLoopback, "built-in: nothing is set"};
 }
@@ -94,14 +96,16 @@ Result<std::vector<std::string>> read_peers(const std::string& text, Reach reach
     for (const std::string& peer : split_text(text, ';')) {
         if (peer.empty()) continue;  // as rcl: "a;;b;" names two
         if (!is_host(peer)) {
-            return refused(kStaticPeers, text,
-                           "must hold IPv4 addresses or host names with ';' between them, '" +
-                               peer + "' is neither");
+            return refused_variable(
+                kStaticPeers, text,
+                "must hold IPv4 addresses or host names with ';' between them, '" + peer +
+                    "' is neither");
         }
         if (reach == Reach::kLoopback && peer != "127.0.0.1" && peer != "localhost") {
-            return refused(kStaticPeers, text,
-                           "has the peer " + peer + ", which dds/loopback.xml cannot reach; set " +
-                               kRange + " = SUBNET, or give --profile");
+            return refused_variable(kStaticPeers, text,
+                                    "has the peer " + peer +
+                                        ", which dds/loopback.xml cannot reach; set " + kRange +
+                                        " = SUBNET, or give --profile");
         }
         peers.push_back(peer);
     }

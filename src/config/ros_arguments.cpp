@@ -49,7 +49,7 @@ constexpr std::array<Spelling, 17> kSpellings = {{
     {"--ros-args", "--ros-args", false},
 }};
 
-PlanError invalid(std::string detail) {
+PlanError invalid_argument(std::string detail) {
     return {PlanErrorCode::kInvalidInput, std::move(detail)};
 }
 
@@ -71,11 +71,12 @@ Result<std::vector<Option>> split_sections(const std::vector<std::string>& argum
         }
         const auto found = std::ranges::find(kSpellings, word, &Spelling::typed);
         if (found == kSpellings.end()) {
-            return invalid("--ros-args: unknown argument " + word + " (-- ends the ROS arguments)");
+            return invalid_argument("--ros-args: unknown argument " + word +
+                                    " (-- ends the ROS arguments)");
         }
         options.push_back({std::string(found->name), ""});
         if (!found->takes_value) continue;
-        if (++i == arguments.size()) return invalid("--ros-args: no value after " + word);
+        if (++i == arguments.size()) return invalid_argument("--ros-args: no value after " + word);
         options.back().value = arguments[i];
     }
     return options;
@@ -134,7 +135,7 @@ std::optional<PlanError> add_parameter(const std::string& text, RosArguments& ro
     if (has_node) name.erase(0, colon + 1);
     if (separator == std::string::npos || !is_parameter_name(name) ||
         check_node_name("node", node)) {
-        return invalid("--param " + text + " must read [NODE:]NAME:=VALUE");
+        return invalid_argument("--param " + text + " must read [NODE:]NAME:=VALUE");
     }
     if (node != ros.node_name) return std::nullopt;
     try {
@@ -144,7 +145,7 @@ std::optional<PlanError> add_parameter(const std::string& text, RosArguments& ro
         }
     } catch (const YAML::Exception&) {  // told below
     }
-    return invalid("--param " + text + " must have one YAML scalar after :=");
+    return invalid_argument("--param " + text + " must have one YAML scalar after :=");
 }
 
 /// The daemon's word for one of rcutils' severities; nothing when it is none.
@@ -175,9 +176,10 @@ std::optional<PlanError> read_log_level(const std::vector<Option>& options, RosA
         const std::string logger = for_all ? "" : option.value.substr(0, separator);
         auto level = daemon_level(for_all ? option.value : option.value.substr(separator + 2));
         if (!level || (!for_all && logger.empty())) {
-            return invalid("--log-level " + option.value +
-                           " must read [LOGGER:=]LEVEL, LEVEL one of debug, info, warn, error, "
-                           "fatal");
+            return invalid_argument(
+                "--log-level " + option.value +
+                " must read [LOGGER:=]LEVEL, LEVEL one of debug, info, warn, error, "
+                "fatal");
         }
         if (!for_all && !ours.starts_with(logger + ".")) continue;
         if (logger.size() < nearest) continue;
@@ -258,7 +260,7 @@ std::optional<PlanError> add_nodes(const YAML::Node& group, const std::string& k
         }
         if (key.empty()) return bad_value(to.file, entry.second, word, "must stand below a node");
         const auto ours = node_key_matches(key, to.node);
-        if (!ours.ok()) return invalid(to.file.string() + ": " + ours.error().detail);
+        if (!ours.ok()) return invalid_argument(to.file.string() + ": " + ours.error().detail);
         if (!ours.value()) continue;
         if (auto error = add_group(entry.second, "", depth + 1, to)) return error;
     }

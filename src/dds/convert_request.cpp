@@ -16,7 +16,7 @@ constexpr std::size_t kMostFrame = 256;
 constexpr std::size_t kMostObstacles = 64;
 constexpr std::size_t kMostCones = 64;
 constexpr std::size_t kMostBoxes = 64;
-constexpr double kLargest = std::numeric_limits<double>::max();
+constexpr double kLargestNumber = std::numeric_limits<double>::max();
 
 void check_names(const wire::GraspRequest_& in, FirstError& errors) {
     check_text(in.request_id(), "request_id", {1, kMostId}, errors);
@@ -79,9 +79,9 @@ void read_scene(const wire::GraspRequest_& in, PlanRequest& out, FirstError& err
     }
     if (errors.any()) return;
     for (const wire::SupportPlane_& plane : in.support_plane()) {
-        out.support_plane = {
-            read_unit(plane.normal(), "support_plane[0].normal", errors),
-            read_number(plane.offset(), "support_plane[0].offset", {-kLargest, kLargest}, errors)};
+        out.support_plane = {read_unit(plane.normal(), "support_plane[0].normal", errors),
+                             read_number(plane.offset(), "support_plane[0].offset",
+                                         {-kLargestNumber, kLargestNumber}, errors)};
     }
     for (std::size_t i = 0; i < in.obstacles().size(); ++i) {
         const wire::Obstacle_& obstacle = in.obstacles()[i];
@@ -101,7 +101,7 @@ void read_scene(const wire::GraspRequest_& in, PlanRequest& out, FirstError& err
         const wire::KeepOutBox_& box = in.keep_out_boxes()[i];
         const std::string path = element("keep_out_boxes", i);
         const Eigen::Vector3d size = read_finite(box.size(), path + ".size", errors);
-        const NumberRange positive{0.0, kLargest, true};
+        const NumberRange positive{0.0, kLargestNumber, true};
         read_number(size.minCoeff(), path + ".size", positive, errors);
         out.keep_out_F.push_back({read_pose(box.pose(), path + ".pose", errors), size / 2.0});
     }

@@ -7,7 +7,7 @@
 namespace graspd::dds {
 namespace {
 
-constexpr std::size_t kMostFrame = 256;
+constexpr std::size_t kMostFrameId = 256;
 constexpr std::size_t kMostObjects = 256;
 constexpr std::size_t kMostCandidates = 1000;
 
@@ -164,7 +164,7 @@ Result<PlanRequest> read_moveit_call(const MoveItCall& call, const std::string& 
     out.request_id = request_id;
     const std::string& frame_id = call.target().header().frame_id();
     out.frame_id = frame_id;
-    check_text(frame_id, "target.header.frame_id", {0, kMostFrame}, errors);
+    check_text(frame_id, "target.header.frame_id", {0, kMostFrameId}, errors);
     check_count(call.movable_obstacles().size(), kMostObjects, "movable_obstacles", errors);
     check_count(call.support_surfaces().size(), kMostObjects, "support_surfaces", errors);
     check_count(call.candidate_grasps().size(), kMostCandidates, "candidate_grasps", errors);

@@ -10,9 +10,9 @@
 namespace graspd {
 namespace {
 
-constexpr double kGrowth = 1.25;           // of the cells from one attempt to the next
-constexpr double kMostCells = 1 << 20;     // along an axis, so that three counts fit 64 bits
-constexpr double kFacesPerCellSide = 2.0;  // of a surface cut into squares
+constexpr double kGrowth = 1.25;             // of the cells from one attempt to the next
+constexpr double kMostCellsAlong = 1 << 20;  // along an axis, so that three counts fit 64 bits
+constexpr double kFacesPerCellSide = 2.0;    // of a surface cut into squares
 
 double area_m2(const TriangleMesh& mesh) {
     double sum = 0.0;
@@ -126,8 +126,8 @@ Result<CoarseMesh> coarsen_mesh(const TriangleMesh& mesh, std::span<const double
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
     const double longest_m = box.sizes().maxCoeff();
-    double cell_m =
-        std::max(std::sqrt(kFacesPerCellSide * area_m2(mesh) / most_faces), longest_m / kMostCells);
+    double cell_m = std::max(std::sqrt(kFacesPerCellSide * area_m2(mesh) / most_faces),
+                             longest_m / kMostCellsAlong);
     // Ends: a cell that holds everything leaves no face.
     for (;; cell_m *= kGrowth) {
         auto faces = faces_between(mesh, cell_heads(mesh, weight, box.min(), cell_m));

@@ -14,10 +14,13 @@
 #include "graspd/base/stop.hpp"
 #include "mesh_edges.hpp"
 #include "orient_faces.hpp"
+#include "plan_error_text.hpp"
 #include "solid_properties.hpp"
 
 namespace graspd {
 namespace {
+
+using mesh_detail::error;
 
 using namespace mesh_detail;
 
@@ -29,13 +32,6 @@ constexpr double kLeastWeldTolerance = 1e-15;
 // times as long as wide has 0.58; a shorter seam is a flaw in one place of a surface that has an
 // outside everywhere else.
 constexpr double kLeastSeam = 0.05;
-
-template <class... Parts>
-PlanError error(PlanErrorCode code, const Parts&... parts) {
-    std::ostringstream text;
-    (text << ... << parts);
-    return PlanError{code, text.str()};
-}
 
 std::optional<PlanError> check_counts(const TriangleMesh& soup, const ConditionMeshConfig& config) {
     if (soup.vertices.empty() || soup.faces.empty()) {

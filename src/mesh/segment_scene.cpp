@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <sstream>
 #include <utility>
 
 #include <pcl/point_cloud.h>
@@ -13,20 +12,16 @@
 #include "graspd/base/disjoint_sets.hpp"
 #include "graspd/base/point_grid.hpp"
 #include "graspd/base/settings.hpp"
+#include "plan_error_text.hpp"
 #include "thin_cloud.hpp"
 
 namespace graspd {
 namespace {
 
+using mesh_detail::error;
+
 // [1] Of the points: a smaller plane is a side of something, not what things stand on.
 constexpr double kLeastPlane = 0.1;
-
-template <class... Parts>
-PlanError error(PlanErrorCode code, const Parts&... parts) {
-    std::ostringstream text;
-    (text << ... << parts);
-    return PlanError{code, text.str()};
-}
 
 struct Plane {
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();

@@ -8,7 +8,7 @@ namespace graspd {
 namespace {
 
 // Single precision of coordinates below 1, three roundings; taken off a box's distance.
-constexpr float kPad = 1e-6F;
+constexpr float kFacePad = 1e-6F;
 
 double squared_to_segment(const Eigen::Vector3d& point, const Eigen::Vector3d& from,
                           const Eigen::Vector3d& to) {
@@ -42,7 +42,7 @@ double squared_to_triangle(const Eigen::Vector3d& point,
 }
 
 /// A child that is still to be looked at.
-struct Waiting {
+struct WaitingFace {
     float squared;  ///< [units^2] from the point to its box, at least
     std::uint32_t child;
 };
@@ -68,7 +68,7 @@ SurfaceDistance::SurfaceDistance(const TriangleMesh& mesh) : vertices_(mesh.vert
         for (const std::uint32_t vertex : mesh.faces[f]) {
             Eigen::Array4f at = Eigen::Array4f::Zero();
             at.head<3>() = ((mesh.vertices[vertex] - middle_) * units_per_m_).cast<float>();
-            boxes[f].extend({at - kPad, at + kPad});
+            boxes[f].extend({at - kFacePad, at + kFacePad});
         }
     }
     tree_ = build_box_tree(boxes);
@@ -79,18 +79,18 @@ SurfaceDistance::SurfaceDistance(const TriangleMesh& mesh) : vertices_(mesh.vert
 double SurfaceDistance::to(const Eigen::Vector3d& point, double at_most_m) const {
     // A point far off loses digits in single precision: its box distances shrink by as much.
     const Eigen::Vector3f place = ((point - middle_) * units_per_m_).cast<float>();
-    const float pad = kPad * (1.0F + place.cwiseAbs().maxCoeff());
+    const float pad = kFacePad * (1.0F + place.cwiseAbs().maxCoeff());
     double best = at_most_m * at_most_m;
     const auto limit = [&] {
         const float units = static_cast<float>(std::sqrt(best) * units_per_m_) * (1.0F + 1e-5F);
         return units * units + 1e-30F;
     };
-    std::array<Waiting, BoxTree::kStackDepth> stack;
+    std::array<WaitingFace, BoxTree::kStackDepth> stack;
     std::size_t waiting = 0;
     if (!faces_.empty()) stack[waiting++] = {0.0F, tree_.root};
     float reach = limit();
     while (waiting > 0) {
-        const Waiting next = stack[--waiting];
+        const WaitingFace next = stack[--waiting];
         if (next.squared > reach) continue;
         if (BoxTree::is_leaf(next.child)) {
             const std::uint32_t first = BoxTree::leaf_first(next.child);
@@ -117,7 +117,7 @@ double SurfaceDistance::to(const Eigen::Vector3d& point, double at_most_m) const
         }
         std::sort(stack.begin() + static_cast<std::ptrdiff_t>(before),
                   stack.begin() + static_cast<std::ptrdiff_t>(waiting),
-                  [](const Waiting& a, const Waiting& b) { return a.squared > b.squared; });
+                  [](const WaitingFace& a, const WaitingFace& b) { return a.squared > b.squared; });
     }
     return std::sqrt(best);
 }

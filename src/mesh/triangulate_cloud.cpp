@@ -10,11 +10,14 @@
 #include "cloud_surface.hpp"
 #include "drop_outliers.hpp"
 #include "graspd/base/settings.hpp"
+#include "plan_error_text.hpp"
 #include "surface_deviation.hpp"
 #include "thin_cloud.hpp"
 
 namespace graspd {
 namespace {
+
+using mesh_detail::error;
 
 using namespace mesh_detail;
 
@@ -22,13 +25,6 @@ constexpr std::size_t kLeastPoints = 10;
 // Thinner clouds are flat up to the rounding of float coordinates [1] of the diagonal.
 constexpr double kLeastThickness = 1e-6;
 constexpr double kLeastReach = 4e-6;  // [1] of the diagonal: a grid's cell
-
-template <class... Parts>
-PlanError error(PlanErrorCode code, const Parts&... parts) {
-    std::ostringstream text;
-    (text << ... << parts);
-    return PlanError{code, text.str()};
-}
 
 std::vector<Finding> findings_of(const ThinnedCloud& cloud) {
     std::vector<Finding> findings;

@@ -70,13 +70,13 @@ bool is_allowed(const Eigen::Isometry3d& X_FH, const PlanRequest& request) {
            });
 }
 
-struct Attempt {
+struct CandidateAttempt {
     std::optional<GradedGrasp> grasp;
     Rejections rejections;
     StageLog log;
 };
 
-void judge(std::size_t index, const Judgement& judgement, Attempt& attempt) {
+void judge(std::size_t index, const Judgement& judgement, CandidateAttempt& attempt) {
     const Eigen::Isometry3d& X_FH = judgement.request.candidates_FH[index];
     const Eigen::Isometry3d X_PH = judgement.X_FP.inverse() * X_FH;
     const double widest_m = judgement.gripper.max_width_m;
@@ -97,15 +97,15 @@ void judge_blocks(const Judgement& judgement, StageLog& log, SearchResult& resul
     constexpr const char* kStage = "planner/judge_candidates";
     const std::size_t count = judgement.request.candidates_FH.size();
     for (std::size_t start = 0; start < count; start += kBlock) {
-        const Attempt untried{{}, Rejections(judgement.traced), {}};
-        std::vector<Attempt> attempts(std::min(kBlock, count - start), untried);
+        const CandidateAttempt untried{{}, Rejections(judgement.traced), {}};
+        std::vector<CandidateAttempt> attempts(std::min(kBlock, count - start), untried);
         log.run(kStage, attempts.size(), [&] {
             for_blocks(attempts.size(), 1, [&](std::size_t first, std::size_t last) {
                 for (std::size_t i = first; i < last; ++i) judge(start + i, judgement, attempts[i]);
             });
             return 0;
         });
-        for (Attempt& attempt : attempts) {
+        for (CandidateAttempt& attempt : attempts) {
             log.merge(attempt.log);
             result.rejections.merge(attempt.rejections);
             if (!attempt.grasp) continue;

@@ -14,13 +14,14 @@ constexpr std::chrono::milliseconds kEarly{1000};
 constexpr std::size_t kMostEarly = 4096;
 
 // Of a request as it is held, within a factor of two.
-constexpr std::uint64_t kRequest_bytes = 2048;
-constexpr std::uint64_t kPoint_bytes = 24;
-constexpr std::uint64_t kFace_bytes = 12;
+constexpr std::uint64_t kSentRequest_bytes = 2048;
+constexpr std::uint64_t kSentPoint_bytes = 24;
+constexpr std::uint64_t kSentFace_bytes = 12;
 
 std::uint64_t bytes_of(const RequestSize& size) {
-    return kRequest_bytes + kPoint_bytes * (size.vertices + size.points + size.obstacle_vertices) +
-           kFace_bytes * (size.faces + size.obstacle_faces);
+    return kSentRequest_bytes +
+           kSentPoint_bytes * (size.vertices + size.points + size.obstacle_vertices) +
+           kSentFace_bytes * (size.faces + size.obstacle_faces);
 }
 
 }  // namespace

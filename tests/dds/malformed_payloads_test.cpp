@@ -14,9 +14,9 @@ namespace {
 using namespace std::chrono_literals;
 using test::Bytes;
 using test::loopback_settings;
+using test::no_answer;
 using test::payload_of;
 using test::SharedRequest;
-using test::no_answer;
 using test::StubPlanner;
 using test::verdict;
 

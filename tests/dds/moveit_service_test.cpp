@@ -12,10 +12,10 @@ namespace {
 
 using test::as_received;
 using test::Bytes;
+using test::no_grasp;
 using test::payload_of;
 using test::RawClient;
 using test::SharedRequest;
-using test::no_grasp;
 using test::StubPlanner;
 using test::verdict;
 using test::with_header;

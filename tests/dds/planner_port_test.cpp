@@ -19,10 +19,10 @@ using namespace std::chrono_literals;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
 using test::Bytes;
 using test::loopback_settings;
+using test::no_answer;
 using test::payload_of;
 using test::RawClient;
 using test::SharedRequest;
-using test::no_answer;
 using test::StubPlanner;
 using test::verdict;
 

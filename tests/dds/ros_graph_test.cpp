@@ -19,9 +19,9 @@ namespace {
 
 using test::Bytes;
 using test::loopback_settings;
+using test::no_answer;
 using test::RawClient;
 using test::SharedRequest;
-using test::no_answer;
 using test::StubPlanner;
 using testing::SizeIs;
 namespace now = rmw_dds_common::msg::dds_;

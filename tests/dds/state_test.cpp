@@ -10,10 +10,10 @@ namespace {
 
 using namespace std::chrono_literals;
 using test::loopback_settings;
+using test::no_answer;
 using test::payload_of;
 using test::RawClient;
 using test::SharedRequest;
-using test::no_answer;
 using test::StubPlanner;
 using testing::ElementsAre;
 
