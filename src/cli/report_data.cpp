@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "base64.hpp"
+#include "json_values.hpp"
 
 namespace graspd::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kReportSchema = "graspd-report/1";
-
-Json row_of(const Eigen::Vector3d& vector) {
-    return {vector.x(), vector.y(), vector.z()};
-}
 
 /// Coordinates one after the other, as floats.
 class Coordinates {
@@ -62,7 +56,7 @@ Json object_of(const TracedObject& object, const Eigen::Isometry3d& X_VP) {
             {"flags", base64_of(flags)},
             {"hull", base64_of(object.hull)},
             {"volume", object.volume_m3},
-            {"center_of_mass", row_of(Eigen::Vector3d(X_VP * object.center_of_mass_P))}};
+            {"center_of_mass", json_of(Eigen::Vector3d(X_VP * object.center_of_mass_P))}};
 }
 
 Json search_of(const TracedSearch& search, const Eigen::Isometry3d& X_VP) {
@@ -173,8 +167,8 @@ Json parts_of(const Gripper& gripper, double contact_width_m, double opening_m) 
     for (const GripperPart& part : gripper_parts(gripper, contact_width_m, opening_m)) {
         parts.push_back({{"member", part.name},
                          {"box",
-                          {{"min", row_of(Eigen::Vector3d(part.box_G.min()))},
-                           {"max", row_of(Eigen::Vector3d(part.box_G.max()))}}}});
+                          {{"min", json_of(Eigen::Vector3d(part.box_G.min()))},
+                           {"max", json_of(Eigen::Vector3d(part.box_G.max()))}}}});
     }
     return parts;
 }
@@ -198,7 +192,7 @@ Json options_of(const PlanOptions& options) {
                  {"suggestion", options.want_suggestion},
                  {"seed", options.seed}};
     if (options.mass_kg) json["mass_kg"] = *options.mass_kg;
-    if (options.gravity_F) json["gravity"] = row_of(*options.gravity_F);
+    if (options.gravity_F) json["gravity"] = json_of(*options.gravity_F);
     for (const GraspSource source : {kBoundary, kWall, kWholeObject}) {
         const bool wanted = options.sources == 0 || (options.sources & source) != 0;
         if (wanted) json["sources"].push_back(to_string(source));
@@ -213,9 +207,9 @@ Json box_of(const OrientedBox& box) {
             rotation.push_back(box.pose.linear()(row, column));
         }
     }
-    return {{"position", row_of(Eigen::Vector3d(box.pose.translation()))},
+    return {{"position", json_of(Eigen::Vector3d(box.pose.translation()))},
             {"rotation", std::move(rotation)},
-            {"half_extent", row_of(box.half_extent)}};
+            {"half_extent", json_of(box.half_extent)}};
 }
 
 Json request_of(const PlanRequest& request, const Eigen::Isometry3d& X_VF) {
@@ -227,7 +221,7 @@ Json request_of(const PlanRequest& request, const Eigen::Isometry3d& X_VF) {
                  {"keep_out", Json::array()}};
     for (const Gripper& gripper : request.grippers) json["grippers"].push_back(gripper.name);
     if (request.support_plane) {
-        json["support_plane"] = {{"normal", row_of(request.support_plane->normal_F)},
+        json["support_plane"] = {{"normal", json_of(request.support_plane->normal_F)},
                                  {"offset", request.support_plane->offset_m}};
     }
     for (const Obstacle& obstacle : request.obstacles) {
@@ -238,7 +232,7 @@ Json request_of(const PlanRequest& request, const Eigen::Isometry3d& X_VF) {
     }
     for (const ApproachCone& cone : request.approach_cones) {
         json["approach_cones"].push_back(
-            {{"axis", row_of(cone.axis_F)}, {"half_angle", cone.half_angle_rad}});
+            {{"axis", json_of(cone.axis_F)}, {"half_angle", cone.half_angle_rad}});
     }
     for (const OrientedBox& box : request.keep_out_F) json["keep_out"].push_back(box_of(box));
     return json;
@@ -259,7 +253,7 @@ std::string report_data(const ProcessPlan& plan, const PlanTrace& trace, const s
     const Json json = {
         {"schema", kReportSchema},
         {"file", std::filesystem::path(file).filename().string()},
-        {"origin", row_of(origin_F)},
+        {"origin", json_of(origin_F)},
         {"request", request_of(plan.request, X_VF)},
         {"object", object_of(trace.object, X_VP)},
         {"searches", std::move(searches)},

@@ -1,14 +1,11 @@
 #include "write_doctor.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "json_values.hpp"
 #include "text_table.hpp"
 #include "write_findings.hpp"
 
 namespace graspd::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kSquareCentimetres = 1e4;
 constexpr double kCubicCentimetres = 1e6;

@@ -1,12 +1,9 @@
-#include <nlohmann/json.hpp>
-
 #include "grasp_conventions.hpp"
+#include "json_values.hpp"
 #include "write_exports.hpp"
 
 namespace graspd::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Row by row.
 Json matrix(const Eigen::Isometry3d& pose) {

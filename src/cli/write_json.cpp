@@ -1,21 +1,17 @@
 #include "write_json.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "json_values.hpp"
 #include "write_findings.hpp"
 
 namespace graspd::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using cli::json_of;  // of vectors, beside those below
 
 constexpr const char* kSchema = "graspd/1";
 constexpr const char* kConvention = "tcp_z_approach_x_closing";
-
-Json json_of(const Eigen::Vector3d& vector) {
-    return {vector.x(), vector.y(), vector.z()};
-}
 
 Json json_of(const Eigen::Isometry3d& pose) {
     Json rotation = Json::array();

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "refused.hpp"
 #include "split_text.hpp"
 
 namespace graspd {
@@ -25,11 +26,6 @@ struct Decision {
     Reach reach = Reach::kLoopback;
     std::string why;
 };
-
-PlanError refused_variable(const std::string& variable, const std::string& value,
-                           const std::string& must) {
-    return {PlanErrorCode::kInvalidInput, variable + " = " + value + " " + must};
-}
 
 std::optional<std::string> variable(const char* name) {
     const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
@@ -77,16 +73,15 @@ Result<Decision> decide(const std::string& profile_option, const NetworkEnvironm
         if (*range == "LOCALHOST") return Decision{Reach::kLoopback, why};
         if (*range == "SYSTEM_DEFAULT") return Decision{Reach::kLoopbackWithoutPeers, why};
         if (*range == "OFF") {
-            return refused_variable(
-                kRange, *range,
-                "lets nobody find graspd; set LOCALHOST or SUBNET, or give --profile");
+            return refused(kRange, *range,
+                           "lets nobody find graspd; set LOCALHOST or SUBNET, or give --profile");
         }
-        return refused_variable(kRange, *range, "must be SUBNET, LOCALHOST, SYSTEM_DEFAULT or OFF");
+        return refused(kRange, *range, "must be SUBNET, LOCALHOST, SYSTEM_DEFAULT or OFF");
     }
     if (const auto& only = environment.localhost_only) {
         const std::string why = std::string(kLocalhostOnly) + " = " + *only;
         if (*only == "0") return Decision{Reach::kSubnet, why};
-        return refused_variable(kLocalhostOnly, *only, "must be 0 or 1");
+        return refused(kLocalhostOnly, *only, "must be 0 or 1");
     }
     return Decision{Reach::kLoopback, "built-in: nothing is set"};
 }
@@ -96,16 +91,14 @@ Result<std::vector<std::string>> read_peers(const std::string& text, Reach reach
     for (const std::string& peer : split_text(text, ';')) {
         if (peer.empty()) continue;  // as rcl: "a;;b;" names two
         if (!is_host(peer)) {
-            return refused_variable(
-                kStaticPeers, text,
-                "must hold IPv4 addresses or host names with ';' between them, '" + peer +
-                    "' is neither");
+            return refused(kStaticPeers, text,
+                           "must hold IPv4 addresses or host names with ';' between them, '" +
+                               peer + "' is neither");
         }
         if (reach == Reach::kLoopback && peer != "127.0.0.1" && peer != "localhost") {
-            return refused_variable(kStaticPeers, text,
-                                    "has the peer " + peer +
-                                        ", which dds/loopback.xml cannot reach; set " + kRange +
-                                        " = SUBNET, or give --profile");
+            return refused(kStaticPeers, text,
+                           "has the peer " + peer + ", which dds/loopback.xml cannot reach; set " +
+                               kRange + " = SUBNET, or give --profile");
         }
         peers.push_back(peer);
     }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "refused.hpp"
 #include "split_text.hpp"
 
 namespace graspd {
@@ -20,10 +21,6 @@ constexpr std::size_t kLongestNamespace = 245;
 constexpr std::size_t kLongestEnclave = 255;
 constexpr std::string_view kTopicScheme = "rostopic://";
 constexpr std::string_view kServiceScheme = "rosservice://";
-
-PlanError refused(const std::string& what, const std::string& value, const std::string& reason) {
-    return {PlanErrorCode::kInvalidInput, what + " = " + value + " " + reason};
-}
 
 bool is_digit(char c) {
     return c >= '0' && c <= '9';

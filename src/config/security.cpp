@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "graspd/config/ros_names.hpp"
+#include "refused.hpp"
 
 namespace graspd {
 namespace {
@@ -21,10 +22,6 @@ std::optional<std::string> variable(const char* name) {
     const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
     if (value == nullptr || *value == '\0') return std::nullopt;
     return value;
-}
-
-PlanError refused(const char* name, const std::string& value, const char* must) {
-    return {PlanErrorCode::kInvalidInput, std::string(name) + " = " + value + " " + must};
 }
 
 bool is_readable(const fs::path& file) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,6 +40,10 @@ struct NumberRange {
     double greatest = 0.0;
     bool open_at_least = false;  ///< `least` itself is outside
 };
+
+inline constexpr double kLargest = std::numeric_limits<double>::max();
+inline constexpr NumberRange kPositive{0.0, kLargest, true};
+inline constexpr std::size_t kMostFrameId = 256;  ///< characters of a header's frame_id
 
 /// At most 64 characters, what is not printable ASCII replaced by '?'.
 std::string printable(const std::string& text);

@@ -1,7 +1,5 @@
 #include "convert_options.hpp"
 
-#include <limits>
-
 namespace graspd::dds {
 namespace {
 
@@ -10,8 +8,6 @@ constexpr std::uint32_t kMostGrasps = 1000;
 constexpr double kLongest_s = 3600.0;
 constexpr double kMostFriction = 10.0;
 constexpr double kMostClearance_m = 1.0;
-constexpr double kLargest = std::numeric_limits<double>::max();
-constexpr NumberRange kPositive{0.0, kLargest, true};
 
 void refuse_flag(bool flag, const char* name, FirstError& errors) {
     if (!flag) return;

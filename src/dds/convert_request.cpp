@@ -1,6 +1,5 @@
 #include "convert_request.hpp"
 
-#include <limits>
 #include <numbers>
 
 #include "convert_cloud.hpp"
@@ -12,17 +11,15 @@ namespace {
 
 // The bounds of idl/graspd.idl.
 constexpr std::size_t kMostId = 64;
-constexpr std::size_t kMostFrame = 256;
 constexpr std::size_t kMostObstacles = 64;
 constexpr std::size_t kMostCones = 64;
 constexpr std::size_t kMostBoxes = 64;
-constexpr double kLargestNumber = std::numeric_limits<double>::max();
 
 void check_names(const wire::GraspRequest_& in, FirstError& errors) {
     check_text(in.request_id(), "request_id", {1, kMostId}, errors);
     check_text(in.client_id(), "client_id", {0, kMostId}, errors);
     check_text(in.object_key(), "object_key", {0, kMostId}, errors);
-    check_text(in.header().frame_id(), "header.frame_id", {0, kMostFrame}, errors);
+    check_text(in.header().frame_id(), "header.frame_id", {0, kMostFrameId}, errors);
 }
 
 void check_object_choice(const wire::GraspRequest_& in, const TriangleMesh& mesh_O,
@@ -79,9 +76,9 @@ void read_scene(const wire::GraspRequest_& in, PlanRequest& out, FirstError& err
     }
     if (errors.any()) return;
     for (const wire::SupportPlane_& plane : in.support_plane()) {
-        out.support_plane = {read_unit(plane.normal(), "support_plane[0].normal", errors),
-                             read_number(plane.offset(), "support_plane[0].offset",
-                                         {-kLargestNumber, kLargestNumber}, errors)};
+        out.support_plane = {
+            read_unit(plane.normal(), "support_plane[0].normal", errors),
+            read_number(plane.offset(), "support_plane[0].offset", {-kLargest, kLargest}, errors)};
     }
     for (std::size_t i = 0; i < in.obstacles().size(); ++i) {
         const wire::Obstacle_& obstacle = in.obstacles()[i];
@@ -101,8 +98,7 @@ void read_scene(const wire::GraspRequest_& in, PlanRequest& out, FirstError& err
         const wire::KeepOutBox_& box = in.keep_out_boxes()[i];
         const std::string path = element("keep_out_boxes", i);
         const Eigen::Vector3d size = read_finite(box.size(), path + ".size", errors);
-        const NumberRange positive{0.0, kLargestNumber, true};
-        read_number(size.minCoeff(), path + ".size", positive, errors);
+        read_number(size.minCoeff(), path + ".size", kPositive, errors);
         out.keep_out_F.push_back({read_pose(box.pose(), path + ".pose", errors), size / 2.0});
     }
 }

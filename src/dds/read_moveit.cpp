@@ -7,7 +7,6 @@
 namespace graspd::dds {
 namespace {
 
-constexpr std::size_t kMostFrameId = 256;
 constexpr std::size_t kMostObjects = 256;
 constexpr std::size_t kMostCandidates = 1000;
 

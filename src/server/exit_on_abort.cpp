@@ -13,7 +13,7 @@ volatile std::sig_atomic_t exit_code = 0;
 void leave(int /*signal*/) {
     constexpr std::string_view kLine =
         "event=aborted what=\"the middleware, while it left the domain; all was answered\"\n";
-    if (write(STDERR_FILENO, kLine.data(), kLine.size()) < 0) _exit(exit_code);
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, kLine.data(), kLine.size());
     _exit(exit_code);
 }
 
