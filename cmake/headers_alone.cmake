@@ -1,5 +1,6 @@
 # graspd_headers_alone: every public header compiles with nothing included before it. The first include
 # of a source shows that of its header; the other headers get a source each here.
+block()
 file(GLOB_RECURSE sources ${PROJECT_SOURCE_DIR}/src/*.cpp ${PROJECT_SOURCE_DIR}/tests/unit/*.cpp)
 set(included_first)
 foreach(source ${sources})
@@ -8,6 +9,7 @@ foreach(source ${sources})
 endforeach()
 
 set(alone)
+set(libraries)
 foreach(library graspd_core graspd_dds graspd_simulate)
   if(NOT TARGET ${library})
     continue()
@@ -27,3 +29,4 @@ endforeach()
 add_library(graspd_headers_alone OBJECT EXCLUDE_FROM_ALL ${alone})
 set_target_properties(graspd_headers_alone PROPERTIES UNITY_BUILD OFF)
 target_link_libraries(graspd_headers_alone PRIVATE ${libraries} graspd_options graspd_warnings)
+endblock()
