@@ -21,22 +21,27 @@ struct TriangleBvh::Ray {
     static constexpr float kSlack = 1.0F + 1e-6F;
 
     Eigen::Vector3d origin, direction;
-    double units_per_t = 0.0;  ///< length of `direction` in the tree's units
-    double skipped = 0.0;      ///< [units] from the origin to where the ray enters the bounds
-    bool meets_bounds = false;
+    Eigen::Vector3d unit, inverted;  ///< of unit length; one over each of its coordinates
+    double units_per_t = 0.0;        ///< length of `direction` in the tree's units
+    double skipped = 0.0;            ///< [units] from the origin to where the ray enters the bounds
+    bool has_direction = false, meets_bounds = false;
     std::array<Eigen::Array4f, 3> start, along, inverse;  ///< [units] from there; of unit length
     std::array<std::size_t, 3> near_side{};  ///< of a box along each axis: 0 low, 1 high
 
     Ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const TriangleBvh& bvh)
-        : origin(from), direction(to) {
+        : Ray(to, bvh) {
+        start_at(from, bvh);
+    }
+    /// From nowhere yet: see start_at().
+    Ray(const Eigen::Vector3d& to, const TriangleBvh& bvh) : direction(to) {
         for (auto* each : {&start, &along, &inverse}) each->fill(Eigen::Array4f::Zero());
         const double length_m = to.norm();
         if (bvh.packs_.empty() || !(length_m > 0.0)) return;
+        has_direction = true;
         units_per_t = length_m * bvh.units_per_m_;
         // Directions as good as zero count as a huge finite inverse: infinity times 0 is no number.
         constexpr double kLeast = 1e-30;
-        const Eigen::Vector3d unit = direction * (1.0 / length_m);
-        Eigen::Vector3d inverted;
+        unit = direction * (1.0 / length_m);
         for (Eigen::Index axis = 0; axis < 3; ++axis) {
             inverted[axis] = std::abs(unit[axis]) > kLeast ? 1.0 / unit[axis] : 1.0 / kLeast;
             const auto a = static_cast<std::size_t>(axis);
@@ -44,7 +49,12 @@ struct TriangleBvh::Ray {
             along[a].setConstant(static_cast<float>(unit[axis]));
             near_side[a] = inverted[axis] < 0.0;
         }
-        meets_bounds = bvh.bounds_.contains(from) || enter_bounds(inverted, bvh);
+    }
+    void start_at(const Eigen::Vector3d& from, const TriangleBvh& bvh) {
+        origin = from;
+        skipped = 0.0;
+        if (!has_direction) return;
+        meets_bounds = bvh.bounds_.contains(from) || enter_bounds(bvh);
         if (!meets_bounds) return;
         const Eigen::Vector3d entry = (from - bvh.middle_) * bvh.units_per_m_ + skipped * unit;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -53,7 +63,7 @@ struct TriangleBvh::Ray {
     }
 
     /// From outside: skips what lies before the bounds. @return whether the ray comes into them
-    bool enter_bounds(const Eigen::Vector3d& inverted, const TriangleBvh& bvh) {
+    bool enter_bounds(const TriangleBvh& bvh) {
         const Eigen::Array3d to_units = inverted.array() * bvh.units_per_m_;
         const Eigen::Array3d low = (bvh.bounds_.min() - origin).array() * to_units;
         const Eigen::Array3d high = (bvh.bounds_.max() - origin).array() * to_units;

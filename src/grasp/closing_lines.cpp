@@ -20,19 +20,18 @@ Result<ClosingLines> closing_lines(const TriangleBvh& tree_W, const Eigen::Isome
                                    std::span<const double> y_G, std::span<const double> z_G,
                                    double half_reach_m) {
     ClosingLines lines;
-    const Eigen::Vector3d direction_W = X_WG.linear().col(0);
+    const auto hits = tree_W.hits_from_ends({X_WG, half_reach_m, y_G, z_G});
+    auto line = hits.begin();
     for (const double y : y_G) {
         for (const double z : z_G) {
-            const Eigen::Vector3d left_G(-half_reach_m, y, z), right_G(half_reach_m, y, z);
-            const auto [left, right] = tree_W.hits_from_ends(X_WG * left_G, X_WG * right_G,
-                                                             direction_W, 2.0 * half_reach_m);
+            const auto& [left, right] = *line++;
             if (left) {
                 if (!left->from_outside) return begins_inside("left");
-                lines.left.push_back(hit_from(left_G, 1.0, *left));
+                lines.left.push_back(hit_from({-half_reach_m, y, z}, 1.0, *left));
             }
             if (right) {
                 if (!right->from_outside) return begins_inside("right");
-                lines.right.push_back(hit_from(right_G, -1.0, *right));
+                lines.right.push_back(hit_from({half_reach_m, y, z}, -1.0, *right));
             }
         }
     }

@@ -29,23 +29,40 @@ NearestCone nearest_cone(const Judgement& judgement, const Eigen::Isometry3d& X_
     return nearest;
 }
 
-/// Looks along the middle lines of palm and fingers. @return the typed reason when one is blocked
-const char* line_blocked(const Judgement& judgement, const Eigen::Isometry3d& X_PG,
-                         double width_m) {
-    if (!judgement.gripper.convex_parts.empty()) return nullptr;  // need not fill their boxes
-    const ManipulabilityConfig& config = judgement.config.manipulability;
-    const double least_margin_m = least_preshape_margin_m(config);
-    const auto parts = gripper_parts(judgement.gripper, width_m, width_m + 2.0 * least_margin_m);
-    for (const GripperPart& part : parts) {
-        Eigen::Vector3d front = part.box_G.center(), rear = front;
-        front.z() = part.box_G.max().z();
-        rear.z() = part.box_G.min().z() - config.approach_distance_m;
-        if (judgement.object.tree_P->segment_blocked(X_PG * front, X_PG * rear)) {
-            return &part == &parts.front() ? "palm_line_blocked" : "finger_line_blocked";
+/// The middle lines of palm and fingers from the grasp back to where the hand comes from.
+class MiddleLines {
+public:
+    MiddleLines(const Judgement& judgement, double width_m) : tree_P_(*judgement.object.tree_P) {
+        const Gripper& gripper = judgement.gripper;
+        if (!gripper.convex_parts.empty()) return;  // need not fill their boxes
+        const ManipulabilityConfig& config = judgement.config.manipulability;
+        const double least_margin_m = least_preshape_margin_m(config);
+        for (const GripperPart& part :
+             gripper_parts(gripper, width_m, width_m + 2.0 * least_margin_m)) {
+            Line line{part.box_G.center(), part.box_G.center(), {}};
+            line.front_G.z() = part.box_G.max().z();
+            line.rear_G.z() = part.box_G.min().z() - config.approach_distance_m;
+            lines_.push_back(line);
         }
     }
-    return nullptr;
-}
+    /// @return the typed reason when one is blocked
+    const char* blocked(const Eigen::Isometry3d& X_PG) {
+        for (Line& line : lines_) {
+            if (tree_P_.segment_blocked(X_PG * line.front_G, X_PG * line.rear_G, line.blocker)) {
+                return &line == &lines_.front() ? "palm_line_blocked" : "finger_line_blocked";
+            }
+        }
+        return nullptr;
+    }
+
+private:
+    struct Line {
+        Eigen::Vector3d front_G, rear_G;
+        TriangleBvh::Blocker blocker;  ///< in the pose before
+    };
+    const TriangleBvh& tree_P_;
+    std::vector<Line> lines_;
+};
 
 }  // namespace
 
@@ -71,6 +88,7 @@ std::vector<ApproachPose> find_poses(const ClosingAxis& axis, const Judgement& j
     const SearchConfig& search = judgement.config.search;
     const double step_m = insertion_step_m(search, judgement.gripper.tip_offset_m);
     const double width_m = (axis.right_P - axis.left_P).norm();
+    MiddleLines lines(judgement, width_m);
     std::vector<ApproachPose> poses;
     for (const std::uint32_t turn : spread_turns(search.approaches)) {
         for (std::uint32_t depth = 0; depth < search.insertions; ++depth) {
@@ -81,7 +99,7 @@ std::vector<ApproachPose> find_poses(const ClosingAxis& axis, const Judgement& j
                                     side * steps * step_m};
             const Eigen::Isometry3d X_PG = local_frame(axis, pose);
             const NearestCone cone = nearest_cone(judgement, X_PG);
-            const char* reason = line_blocked(judgement, X_PG, width_m);
+            const char* reason = lines.blocked(X_PG);
             const auto candidate = [&] { return traced(axis, pose, judgement.gripper.name); };
             if (cone.outside_rad > 0.0 && reason == nullptr) {
                 rejections.add_miss({X_PG, kOutside, cone.outside_rad, "rad"}, cone.half_angle_rad,

@@ -1,6 +1,7 @@
 #include "search_grasps.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "boundary_axes.hpp"
@@ -71,6 +72,14 @@ Attempt try_axis(const ClosingAxis& axis, const Judgement& judgement) {
     return attempt;
 }
 
+/// After how many axes with a good grasp a round may end: where near grasps are to fall, after
+/// none.
+std::uint32_t good_axes_wanted(const Judgement& judgement) {
+    const PlanOptions& options = judgement.request.options;
+    if (options.min_clearance_m > 0.0) return std::numeric_limits<std::uint32_t>::max();
+    return std::max(judgement.config.search.good_axes_per_round, options.max_grasps);
+}
+
 /// One round: tries axes in their order, a batch at a time, until enough of them gave a grasp.
 ///
 /// Which axes a batch holds, and what of its attempts counts, does not depend on threads: an
@@ -81,6 +90,7 @@ public:
         : rejections_(judgement.traced),
           judgement_(judgement),
           pending_(std::move(ordered)),
+          good_left_(good_axes_wanted(judgement)),
           poses_left_(judgement.config.search.poses_per_round) {}
 
     bool done() const { return pending_.empty(); }
@@ -91,7 +101,8 @@ public:
 
 private:
     bool is_full() const {
-        return held_.size() >= judgement_.config.search.axes_per_round || poses_left_ == 0;
+        return held_.size() >= judgement_.config.search.axes_per_round || good_left_ == 0 ||
+               poses_left_ == 0;
     }
     bool like_any(const ClosingAxis& axis, const std::vector<ClosingAxis>& others) const {
         return std::ranges::any_of(
@@ -106,6 +117,7 @@ private:
     const Judgement& judgement_;
     std::vector<ClosingAxis> pending_;
     std::vector<ClosingAxis> held_;  ///< axes on which a grasp was found
+    std::uint32_t good_left_;        ///< axes with a good grasp that are still wanted
     std::uint32_t poses_left_;
 };
 
@@ -134,6 +146,12 @@ void Round::accept(const ClosingAxis& axis, Attempt attempt, StageLog& log) {
     poses_left_ -= std::min(poses_left_, attempt.poses);
     rejections_.merge(attempt.rejections);
     if (!attempt.grasps.empty()) held_.push_back(axis);
+    const double good = judgement_.config.search.good_score;
+    if (good_left_ > 0 && std::ranges::any_of(attempt.grasps, [&](const GradedGrasp& grasp) {
+            return grasp.score.score >= good;
+        })) {
+        --good_left_;
+    }
     std::ranges::move(attempt.grasps, std::back_inserter(grasps_));
 }
 

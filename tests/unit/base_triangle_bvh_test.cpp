@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "support/shapes.hpp"
 
@@ -220,42 +222,86 @@ TEST(TriangleBvh, ANeedleDoesNotReachBeyondItsEnds) {
     EXPECT_FALSE(meets(1.001, 0.0));
 }
 
-/// hits_from_ends() and the two first_hit() that it stands for.
-void expect_as_from_each_end(const TriangleBvh& bvh, const Vector3d& a, const Vector3d& direction,
-                             double distance_m) {
-    const Vector3d b = a + distance_m * direction;
-    const auto ends = bvh.hits_from_ends(a, b, direction, distance_m);
-    const auto expect = [](const std::optional<TriangleBvh::Hit>& expected,
-                           const std::optional<TriangleBvh::Hit>& hit) {
-        ASSERT_EQ(hit.has_value(), expected.has_value());
-        if (!hit) return;
-        EXPECT_EQ(hit->distance_m, expected->distance_m);
-        EXPECT_EQ(hit->face, expected->face);
-        EXPECT_EQ(hit->from_outside, expected->from_outside);
-    };
-    expect(bvh.first_hit(a, direction, distance_m), ends.from_a);
-    expect(bvh.first_hit(b, -direction, distance_m), ends.from_b);
+void expect_same(const std::optional<TriangleBvh::Hit>& expected,
+                 const std::optional<TriangleBvh::Hit>& hit) {
+    ASSERT_EQ(hit.has_value(), expected.has_value());
+    if (!hit) return;
+    EXPECT_EQ(hit->distance_m, expected->distance_m);
+    EXPECT_EQ(hit->face, expected->face);
+    EXPECT_EQ(hit->from_outside, expected->from_outside);
+}
+
+/// Compares hits_from_ends() with the two first_hit() of each line. @return how many lines hit
+int expect_as_from_each_end(const TriangleBvh& bvh, const TriangleBvh::LineGrid& grid) {
+    const auto ends = bvh.hits_from_ends(grid);
+    EXPECT_EQ(ends.size(), grid.y_m.size() * grid.z_m.size());
+    const Vector3d direction = grid.pose.linear().col(0);
+    int hits = 0;
+    std::size_t line = 0;
+    for (const double y : grid.y_m) {
+        for (const double z : grid.z_m) {
+            const auto& [from_a, from_b] = ends.at(line++);
+            const Vector3d a = grid.pose * Vector3d(-grid.half_length_m, y, z);
+            const Vector3d b = grid.pose * Vector3d(grid.half_length_m, y, z);
+            expect_same(bvh.first_hit(a, direction, 2.0 * grid.half_length_m), from_a);
+            expect_same(bvh.first_hit(b, -direction, 2.0 * grid.half_length_m), from_b);
+            hits += from_a.has_value();
+        }
+    }
+    return hits;
+}
+
+std::vector<double> even_steps(double first, double step, std::size_t count) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < count; ++i) {
+        places.push_back(first + static_cast<double>(i) * step);
+    }
+    return places;
 }
 
 TEST(TriangleBvh, BothEndsOfALine) {
     // A block of 40 in the middle of a room of 200, seen from within the room and from outside.
     const auto room = test::box({0.2, 0.2, 0.2}, 300), block = test::box({0.04, 0.04, 0.04}, 300);
     const TriangleBvh bvh(test::joined(room, block), 1e-9);
-    const Vector3d from_room(-0.09, 0.003, 0.004), from_outside(-0.15, 0.003, 0.004);
-    const auto x = Vector3d::UnitX();
-    const auto in_room = bvh.hits_from_ends(from_room, from_room + 0.18 * x, x, 0.18);
+    const std::vector<double> y{0.003}, z{0.004};
+    const auto ends_of = [&](double from_x, double to_x) {
+        const Eigen::Translation3d middle(0.5 * (from_x + to_x), 0.0, 0.0);
+        return bvh.hits_from_ends({Eigen::Isometry3d(middle), 0.5 * (to_x - from_x), y, z}).at(0);
+    };
+    const auto in_room = ends_of(-0.09, 0.09);
     ASSERT_TRUE(in_room.from_a && in_room.from_b);
     EXPECT_NEAR(in_room.from_a->distance_m, 0.07, 1e-12);
     EXPECT_NEAR(in_room.from_b->distance_m, 0.07, 1e-12);
     EXPECT_TRUE(in_room.from_a->from_outside && in_room.from_b->from_outside);
-    const auto across = bvh.hits_from_ends(from_outside, from_outside + 0.15 * x, x, 0.15);
+    const auto across = ends_of(-0.15, 0.0);
     ASSERT_TRUE(across.from_a && across.from_b);
     EXPECT_NEAR(across.from_a->distance_m, 0.05, 1e-12);  // the room's wall
     EXPECT_TRUE(across.from_a->from_outside);
     EXPECT_NEAR(across.from_b->distance_m, 0.02, 1e-12);  // the block, from its middle
     EXPECT_FALSE(across.from_b->from_outside);
-    const auto short_of_all = bvh.hits_from_ends(from_room, from_room + 0.06 * x, x, 0.06);
+    const auto short_of_all = ends_of(-0.09, -0.03);
     EXPECT_FALSE(short_of_all.from_a || short_of_all.from_b);
+}
+
+// A block as wide as a third of the grid: a row of lines passes on either side of it.
+TEST(TriangleBvh, EachLineOfAGridIsItsOwn) {
+    const TriangleBvh bvh(test::box({0.04, 0.02, 0.05}, 300), 1e-9);
+    const auto y = even_steps(-0.02, 0.02, 3), z = even_steps(0.0, 0.02, 2);
+    const auto ends = bvh.hits_from_ends({Eigen::Isometry3d::Identity(), 0.05, y, z});
+    ASSERT_EQ(ends.size(), 6U);
+    for (std::size_t line = 0; line < 6; ++line) {
+        const bool meets = line == 2 || line == 3;  // y = 0
+        ASSERT_EQ(ends[line].from_a.has_value(), meets) << line;
+        ASSERT_EQ(ends[line].from_b.has_value(), meets) << line;
+        if (!meets) continue;
+        EXPECT_NEAR(ends[line].from_a->distance_m, 0.03, 1e-12);
+        EXPECT_NEAR(ends[line].from_b->distance_m, 0.03, 1e-12);
+    }
+    EXPECT_TRUE(bvh.hits_from_ends({Eigen::Isometry3d::Identity(), 0.05, y, {}}).empty());
+    const TriangleBvh nothing(TriangleMesh{}, 1e-9);
+    for (const auto& [a, b] : nothing.hits_from_ends({Eigen::Isometry3d::Identity(), 1.0, y, z})) {
+        EXPECT_FALSE(a || b);
+    }
 }
 
 TEST(TriangleBvh, BothEndsAreAsEachAlone) {
@@ -264,11 +310,24 @@ TEST(TriangleBvh, BothEndsAreAsEachAlone) {
     for (const double radius_m : {0.01, 0.02, 0.03, 0.04, 0.05}) {
         shells = test::joined(shells, test::sphere(radius_m, 1500));
     }
-    const TriangleBvh bvh = bvh_of(shells);
-    for (int i = 0; i < 5000; ++i) {
-        const Vector3d a = 0.08 * random_vector(random);
-        const Vector3d direction = random_vector(random).normalized();
-        expect_as_from_each_end(bvh, a, direction, 0.1 * (1.0 + fraction(random)));
+    std::vector<NamedMesh> all = meshes();
+    all.push_back({"shells", shells});
+    all.push_back({"one triangle", {{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}}, {{0, 1, 2}}}});
+    for (const auto& [name, mesh] : all) {
+        SCOPED_TRACE(name);
+        const TriangleBvh bvh = bvh_of(mesh);
+        const double size_m = diagonal_m(mesh);
+        int hits = 0;
+        for (int i = 0; i < 300; ++i) {
+            Eigen::Isometry3d pose = test::random_pose(100 + static_cast<unsigned>(i));
+            pose.translation() = bvh.bounds().center() + 0.3 * size_m * random_vector(random);
+            const double step_m = 0.05 * size_m * (1.0 + fraction(random));
+            const auto y = even_steps(0.2 * size_m * fraction(random), step_m, 1 + i % 9);
+            const auto z = even_steps(0.2 * size_m * fraction(random), 0.5 * step_m, 1 + i % 5);
+            const double half_m = 0.5 * size_m * (1.0 + fraction(random));
+            hits += expect_as_from_each_end(bvh, {pose, half_m, y, z});
+        }
+        EXPECT_GT(hits, 50);
     }
 }
 

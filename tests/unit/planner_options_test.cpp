@@ -75,23 +75,44 @@ TEST(Plan, ReturnsNoMoreThanAreAskedFor) {
     }
 }
 
+constexpr const char* kGraded = "grasp/contact_patch";
+
 // A hand gets to a ball from all sides, and nearly every pose that it gets to holds. Of each of
 // the 24 axes eight poses are tried, of which six hold and more; with a least clearance all, as the
 // one that is clear may be the last.
 TEST(Plan, LeavesAnAxisWhenEnoughOfItsPosesHold) {
     constexpr const char* kPoses = "planner/find_poses";
-    constexpr const char* kGraded = "grasp/contact_patch";
     PlanRequest request = from_source(test::sphere(0.03, 2000), kWholeObject);
-    const PlanReply few = planned(request);
+    PlannerConfig config;
+    config.search.good_axes_per_round = 24;
+    const PlanReply few = planned(request, config);
     EXPECT_EQ(out_of(few, kGraded), 24U * 8U);
     EXPECT_EQ(rejections_of(few, "pose_surplus"), out_of(few, kPoses) - 24 * 8);
-    PlannerConfig config;
     config.search.grasps_per_axis = 9;
     EXPECT_GT(out_of(planned(request, config), kGraded), 24U * 9U);
     request.options.min_clearance_m = 1e-4;
     const PlanReply all = planned(request);
     EXPECT_EQ(rejections_of(all, "pose_surplus"), 0U);
     EXPECT_GT(out_of(all, kGraded), 24U * 16U);
+}
+
+// A ball's grasps are all good. A round ends after ten axes, each with its eight poses, or after as
+// many as grasps are asked for; where good ones are wanted that do not exist, after all 24.
+TEST(Plan, LeavesARoundWhenEnoughOfItsAxesAreGood) {
+    PlanRequest request = from_source(test::sphere(0.03, 2000), kWholeObject);
+    EXPECT_EQ(out_of(planned(request), kGraded), 10U * 8U);
+    request.options.max_grasps = 15;
+    EXPECT_EQ(out_of(planned(request), kGraded), 15U * 8U);
+    request.options.max_grasps = 1;
+    PlannerConfig config;
+    config.search.good_axes_per_round = 3;
+    EXPECT_EQ(out_of(planned(request, config), kGraded), 3U * 8U);
+    request.options.friction = 0.2;  // no score is so high
+    config.search.good_score = 1.0;
+    const PlanReply poor = planned(request, config);
+    ASSERT_FALSE(poor.grasps.empty());
+    EXPECT_LT(poor.grasps.front().score, 1.0);
+    EXPECT_EQ(out_of(poor, kGraded), 24U * 8U);
 }
 
 TEST(Plan, ComesWithinTheApproachCones) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -59,10 +60,16 @@ public:
     struct EndHits {
         std::optional<Hit> from_a, from_b;
     };
-    /// first_hit() from `a` along the unit direction, and from `b`, `distance_m` further, back: one
-    /// walk instead of two.
-    EndHits hits_from_ends(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                           const Eigen::Vector3d& direction, double distance_m) const;
+    /// Lines of one length side by side: along the pose's x axis, from `a` at -half_length_m to `b`
+    /// at +half_length_m, at every pair of a y and a z.
+    struct LineGrid {
+        Eigen::Isometry3d pose;
+        double half_length_m = 0.0;
+        std::span<const double> y_m, z_m;  ///< [m] rising by even steps
+    };
+    /// For each line, row by row (all z of the first y, ...), what first_hit() says from `a` and,
+    /// back, from `b`: one walk for all of them.
+    std::vector<EndHits> hits_from_ends(const LineGrid& grid) const;
 
     /// All hits by rising distance (ties by face). Hits on a shared edge come once per face, unless
     /// they follow each other within the tolerance on the same side: then one stands for all.
@@ -104,7 +111,7 @@ private:
         std::uint32_t first = 0, count = 0;
     };
     struct Ray;
-    class EndWalk;
+    class GridWalk;
     struct Vicinity;
     /// A triangle's products round by less, over powers of its longest edge [units].
     static constexpr float kRounding = 2e-6F;

@@ -20,10 +20,13 @@ struct SearchConfig {
     std::uint32_t probe_samples = 800;     ///< of the surface, for opposite candidates
     std::uint32_t axes_per_round = 24;     ///< a round (one concavity, the walls, the whole object)
                                            ///< ends when so many axes gave a grasp,
-    std::uint32_t poses_per_round = 1000;  ///< or when so many poses were checked in full
-    std::uint32_t grasps_per_axis = 6;     ///< an axis is left when so many of its poses, tried
-                                           ///< eight at a time, gave a grasp; never where the
-                                           ///< request has a least clearance
+    std::uint32_t good_axes_per_round = 10;  ///< or so many, and as many as grasps are asked for, a
+                                             ///< good one; never where there is a least clearance,
+    double good_score = 0.95;                ///< [1] of a good grasp,
+    std::uint32_t poses_per_round = 1000;    ///< or when so many poses were checked in full
+    std::uint32_t grasps_per_axis = 6;       ///< an axis is left when so many of its poses, tried
+                                             ///< eight at a time, gave a grasp; never where the
+                                             ///< request has a least clearance
     double lever_weight_rad_m = 4.0;       ///< [rad/m] of the lever against the lean, when axes are
                                            ///< chosen
     std::uint32_t refined = 5;             ///< best grasps that are improved by small moves
@@ -49,6 +52,8 @@ struct SearchConfig {
         visit("insertion_least_tip_m", self.insertion_least_tip_m, 0.0, 0.1);
         visit("probe_samples", self.probe_samples, 100u, 1000000u);
         visit("axes_per_round", self.axes_per_round, 1u, 100000u);
+        visit("good_axes_per_round", self.good_axes_per_round, 1u, 100000u);
+        visit("good_score", self.good_score, 0.0, 1.0);
         visit("poses_per_round", self.poses_per_round, 1u, 10000000u);
         visit("grasps_per_axis", self.grasps_per_axis, 1u, 100000u);
         visit("lever_weight_rad_m", self.lever_weight_rad_m, 0.0, 100.0);
