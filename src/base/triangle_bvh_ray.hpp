@@ -77,22 +77,16 @@ struct TriangleBvh::Ray {
         return static_cast<float>(std::min(reach * units_per_t - skipped, kBeyond)) * kSlack;
     }
 
-    /// Which children's boxes the ray enters within `reach`, and where it enters and leaves them.
-    unsigned enters(const BoxTree::Node& node, float reach, Eigen::Array4f& enter,
-                    Eigen::Array4f& leave) const {
+    /// Which children's boxes the ray enters within `reach`, and where.
+    unsigned enters(const BoxTree::Node& node, float reach, Eigen::Array4f& enter) const {
         enter = Eigen::Array4f::Zero();
-        leave = Eigen::Array4f::Constant(reach);
+        Eigen::Array4f leave = Eigen::Array4f::Constant(reach);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto& bound = node.bound[axis];
             enter = enter.max((bound[near_side[axis]] - start[axis]) * inverse[axis]);
             leave = leave.min((bound[1 - near_side[axis]] - start[axis]) * inverse[axis]);
         }
-        leave *= kSlack;
-        return lanes_not_negative(leave - enter);
-    }
-    unsigned enters(const BoxTree::Node& node, float reach, Eigen::Array4f& enter) const {
-        Eigen::Array4f leave;
-        return enters(node, reach, enter, leave);
+        return lanes_not_negative(leave * kSlack - enter);
     }
 };
 
