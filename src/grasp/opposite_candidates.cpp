@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "graspd/base/parallel.hpp"
 #include "graspd/base/plane_points.hpp"
 #include "graspd/base/settings.hpp"
-#include "graspd/base/stop.hpp"
 
 namespace graspd {
 namespace {
@@ -57,16 +57,20 @@ Result<std::vector<OppositeCandidate>> opposite_candidates(std::span<const Surfa
                                                            const OppositeCandidatesConfig& config) {
     if (auto bad = validate(config, "opposite_candidates.")) return *bad;
     if (auto bad = check_positive("opposite_candidates: opening_m", opening_m)) return *bad;
-    constexpr std::size_t kSamplesAtATime = 32;
+    constexpr std::size_t kSamplesAtATime = 64;
+    std::vector<std::vector<OppositeCandidate>> parts((samples.size() + kSamplesAtATime - 1) /
+                                                      kSamplesAtATime);
+    for_blocks(samples.size(), kSamplesAtATime, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            if (!std::isfinite(samples[i].concavity_m)) continue;  // no hand gets there
+            auto candidate = opposite_of(samples[i], mesh_O, tree_O, opening_m, config);
+            if (!candidate) continue;
+            candidate->sample = static_cast<std::uint32_t>(i);
+            parts[first / kSamplesAtATime].push_back(*candidate);
+        }
+    });
     std::vector<OppositeCandidate> candidates;
-    for (std::uint32_t i = 0; i < samples.size(); ++i) {
-        if (i % kSamplesAtATime == 0) stop_point();
-        if (!std::isfinite(samples[i].concavity_m)) continue;  // no hand gets there
-        auto candidate = opposite_of(samples[i], mesh_O, tree_O, opening_m, config);
-        if (!candidate) continue;
-        candidate->sample = i;
-        candidates.push_back(*candidate);
-    }
+    for (const auto& part : parts) candidates.insert(candidates.end(), part.begin(), part.end());
     return candidates;
 }
 

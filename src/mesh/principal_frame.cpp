@@ -12,39 +12,50 @@ namespace {
 
 constexpr double kVanishing = 1e-9;  // rounding of the third moment, relative to the spread's cube
 
-/// Calls visit(twice the area, corner, corner, corner) for every face.
-template <class Visit>
-void for_each_face(const TriangleMesh& mesh, Visit&& visit) {
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        stop_point(f);
-        const Triangle& t = mesh.faces[f];
-        const Eigen::Vector3d& a = mesh.vertices[t[0]];
-        const Eigen::Vector3d& b = mesh.vertices[t[1]];
-        const Eigen::Vector3d& c = mesh.vertices[t[2]];
-        visit((b - a).cross(c - a).norm(), a, b, c);
+/// Faces with what every moment of the surface needs of them.
+class Faces {
+public:
+    explicit Faces(const TriangleMesh& mesh) : mesh_(mesh) {
+        twice_area_.reserve(mesh.faces.size());
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+            stop_point(f);
+            const Triangle& t = mesh.faces[f];
+            const Eigen::Vector3d& a = mesh.vertices[t[0]];
+            twice_area_.push_back((mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a).norm());
+        }
     }
-}
+    /// Calls visit(twice the area, corner, corner, corner) for every face.
+    template <class Visit>
+    void each(Visit&& visit) const {
+        for (std::size_t f = 0; f < twice_area_.size(); ++f) {
+            stop_point(f);
+            const Triangle& t = mesh_.faces[f];
+            visit(twice_area_[f], mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]);
+        }
+    }
 
-/// Integral of (direction . (x - center))^3 over the surface: area / 10 times the complete
-/// homogeneous polynomial of degree 3 in the corners' coordinates.
-double third_moment(const TriangleMesh& mesh, const Eigen::Vector3d& center,
-                    const Eigen::Vector3d& direction) {
-    double sum = 0.0;
-    for_each_face(mesh, [&](double twice_area, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                            const Eigen::Vector3d& c) {
-        const double p = direction.dot(a - center);
-        const double q = direction.dot(b - center);
-        const double r = direction.dot(c - center);
-        const double homogeneous =
-            p * p * (p + q + r) + q * q * (q + r + p) + r * r * (r + p + q) + p * q * r;
-        sum += twice_area / 20.0 * homogeneous;
+private:
+    const TriangleMesh& mesh_;
+    std::vector<double> twice_area_;  ///< [m2]
+};
+
+/// Integrals of (direction . (x - center))^3 over the surface, for two directions: area / 10 times
+/// the complete homogeneous polynomial of degree 3 in the corners' coordinates.
+Eigen::Array2d third_moments(const Faces& faces, const Eigen::Vector3d& center,
+                             const Eigen::Matrix<double, 3, 2>& directions) {
+    Eigen::Array2d sum = Eigen::Array2d::Zero();
+    faces.each([&](double twice_area, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                   const Eigen::Vector3d& c) {
+        const Eigen::Array2d p = directions.transpose() * (a - center);
+        const Eigen::Array2d q = directions.transpose() * (b - center);
+        const Eigen::Array2d r = directions.transpose() * (c - center);
+        sum += twice_area / 20.0 *
+               (p * p * (p + q + r) + q * q * (q + r + p) + r * r * (r + p + q) + p * q * r);
     });
     return sum;
 }
 
-Eigen::Vector3d with_sign(const TriangleMesh& mesh, const Eigen::Vector3d& center,
-                          const Eigen::Vector3d& axis, double scale) {
-    const double moment = third_moment(mesh, center, axis);
+Eigen::Vector3d with_sign(const Eigen::Vector3d& axis, double moment, double scale) {
     if (std::abs(moment) > kVanishing * scale) return moment < 0.0 ? Eigen::Vector3d(-axis) : axis;
     Eigen::Index largest = 0;
     axis.cwiseAbs().maxCoeff(&largest);
@@ -58,8 +69,9 @@ Result<Eigen::Isometry3d> principal_frame(const TriangleMesh& mesh_O) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     const Eigen::Vector3d anchor =
         mesh_O.vertices.empty() ? Eigen::Vector3d(0, 0, 0) : mesh_O.vertices.front();
-    for_each_face(mesh_O, [&](double area2, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                              const Eigen::Vector3d& c) {
+    const Faces faces(mesh_O);
+    faces.each([&](double area2, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                   const Eigen::Vector3d& c) {
         twice_area += area2;
         sum += area2 / 3.0 * ((a - anchor) + (b - anchor) + (c - anchor));
     });
@@ -70,8 +82,8 @@ Result<Eigen::Isometry3d> principal_frame(const TriangleMesh& mesh_O) {
     const Eigen::Vector3d center = anchor + sum / twice_area;
 
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for_each_face(mesh_O, [&](double area2, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                              const Eigen::Vector3d& c) {
+    faces.each([&](double area2, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                   const Eigen::Vector3d& c) {
         const Eigen::Vector3d p = a - center, q = b - center, r = c - center, s = p + q + r;
         spread += area2 / 24.0 *
                   (s * s.transpose() + p * p.transpose() + q * q.transpose() + r * r.transpose());
@@ -82,8 +94,12 @@ Result<Eigen::Isometry3d> principal_frame(const TriangleMesh& mesh_O) {
     }
     const double scale = 0.5 * twice_area * std::pow(2.0 * spread.trace() / twice_area, 1.5);
     Eigen::Isometry3d X_OP = Eigen::Isometry3d::Identity();
-    X_OP.linear().col(0) = with_sign(mesh_O, center, solver.eigenvectors().col(2), scale);
-    X_OP.linear().col(1) = with_sign(mesh_O, center, solver.eigenvectors().col(1), scale);
+    Eigen::Matrix<double, 3, 2> axes;
+    axes << solver.eigenvectors().col(2), solver.eigenvectors().col(1);
+    const Eigen::Array2d moments = third_moments(faces, center, axes);
+    for (Eigen::Index i = 0; i < 2; ++i) {
+        X_OP.linear().col(i) = with_sign(axes.col(i), moments[i], scale);
+    }
     X_OP.linear().col(2) = X_OP.linear().col(0).cross(X_OP.linear().col(1));
     X_OP.translation() = center;
     return X_OP;

@@ -4,14 +4,13 @@
 
 namespace graspd::planner_detail {
 
-AcrossSolid look_across(const PreparedObject& object, const Gripper& gripper,
-                        const PlannerConfig& config) {
+AcrossSolid look_across(const PreparedObject& object, const SurfaceSampler& sampler,
+                        const Gripper& gripper, const PlannerConfig& config) {
     constexpr const char* kOpposite = "grasp/opposite_candidates";
     AcrossSolid across;
     SampleSurfaceConfig coarse = config.sample_surface;
     coarse.max_samples = config.search.probe_samples;
-    auto probes =
-        sample_surface(object.mesh_P, object.field.value_m, gripper.finger_width_m, coarse);
+    auto probes = sampler.sample(gripper.finger_width_m, coarse);
     if (!probes) return across;
     across.probes = std::move(probes).value();
     auto candidates = across.log.run(kOpposite, across.probes.samples.size(), [&] {

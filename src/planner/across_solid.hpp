@@ -18,7 +18,8 @@ struct AcrossSolid {
 };
 /// Depends on the size of the gripper's fingers, on no limit of a request: candidates that are too
 /// wide are among them, so that they are counted as such later.
-AcrossSolid look_across(const PreparedObject& object, const Gripper& gripper,
-                        const PlannerConfig& config);
+/// @param sampler  of the object's surface
+AcrossSolid look_across(const PreparedObject& object, const SurfaceSampler& sampler,
+                        const Gripper& gripper, const PlannerConfig& config);
 
 }  // namespace graspd::planner_detail

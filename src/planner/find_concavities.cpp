@@ -71,22 +71,27 @@ Result<std::vector<Concavity>> find_concavities(const SurfaceSamples& surface,
 
 Result<SeenSurface> see_surface(const PreparedObject& object, const Gripper& gripper,
                                 const PlannerConfig& config, bool across_too, StageLog& log) {
-    SeenSurface seen;
+    constexpr const char* kSample = "mesh/sample_surface";
+    const auto sampler = log.run(kSample, object.mesh_P.faces.size(), [&] {
+        return SurfaceSampler::of(object.mesh_P, object.field.value_m);
+    });
+    if (!sampler) return sampler.error();
+    SeenSurface seen{{}, {}, {}, sampler.value()};
     std::optional<PlanError> bad;
     const auto look_along = [&] {
-        auto surface = log.run("mesh/sample_surface", object.mesh_P.faces.size(), [&] {
-            return sample_surface(object.mesh_P, object.field.value_m, gripper.finger_width_m,
-                                  config.sample_surface);
+        auto surface = log.run(kSample, 0, [&] {
+            return seen.sampler.sample(gripper.finger_width_m, config.sample_surface);
         });
         if (!surface) return void(bad = surface.error());
         seen.surface = std::move(surface).value();
-        log.out("mesh/sample_surface", seen.surface.samples.size());
+        log.out(kSample, seen.surface.samples.size());
         auto concavities = find_concavities(seen.surface, gripper.finger_thickness_m, config, log);
         if (!concavities) return void(bad = concavities.error());
         seen.concavities = std::move(concavities).value();
     };
     run_together({look_along, [&] {
-                      if (across_too) seen.across = look_across(object, gripper, config);
+                      if (across_too)
+                          seen.across = look_across(object, seen.sampler, gripper, config);
                   }});
     if (bad) return *bad;
     return seen;

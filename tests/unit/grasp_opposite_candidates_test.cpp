@@ -56,6 +56,24 @@ TEST(OppositeCandidates, CrossTheBlockWhereItIsNarrowEnough) {
     EXPECT_EQ(candidates(mesh, samples, 0.101).size(), 3U);
 }
 
+// More samples than are served at a time.
+TEST(OppositeCandidates, FollowTheOrderOfTheSamples) {
+    const TriangleMesh mesh = test::box({0.10, 0.06, 0.04}, 200);
+    std::vector<SurfaceSample> samples;
+    for (int i = 0; i < 500; ++i) {
+        // Every third looks along x, where the block is too long.
+        const double at_m = 1e-5 * i - 0.0024;
+        samples.push_back(i % 3 == 0 ? sample({0.05, at_m, 0.0}, {1, 0, 0})
+                                     : sample({at_m, 0.03, 0.004}, {0, 1, 0}));
+    }
+    const auto found = candidates(mesh, samples, 0.085);
+    ASSERT_EQ(found.size(), 333U);
+    for (std::uint32_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].sample, i / 2 * 3 + i % 2 + 1);
+        EXPECT_NEAR(found[i].right_O.x(), samples[found[i].sample].point.x(), 1e-9);
+    }
+}
+
 // From the inside of a cup's wall, radius 36, to its outside, 40: the line ends at the wall's other
 // side although the cup goes on behind the cavity. Sides of the polygon lie inside the circles by
 // less than 0.1.

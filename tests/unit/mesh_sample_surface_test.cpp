@@ -210,6 +210,42 @@ TEST(SampleSurface, RoundingDoesNotChangeTheOrder) {
     }
 }
 
+// Points rise by x, then by y, also where an object spans more grid units (a millionth of a
+// spacing) than 32 bits count: its second box would lie on the first, were they counted modulo
+// 2^32.
+TEST(SampleSurface, ALongObjectIsInOrderToo) {
+    const auto near = test::box({0.061, 0.040, 0.025});
+    const double wrap_m = 4294967296e-6 * kSpacing_m;
+    const Eigen::Isometry3d X(Eigen::Translation3d(wrap_m, 0.0, 0.0));
+    const auto samples = samples_of(test::joined(near, test::moved(near, X)));
+    ASSERT_EQ(samples.size(), 2 * samples_of(near).size());
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const Eigen::Vector3d step = samples[i].point - samples[i - 1].point;
+        ASSERT_GT(step.x(), -1e-9) << i;
+        ASSERT_TRUE(step.x() > 1e-9 || step.y() > -1e-9) << i;
+    }
+}
+
+// A sampler keeps nothing of the grid that it made before, and outlives the mesh.
+TEST(SampleSurface, ASamplerServesAnySpacing) {
+    const SampleSurfaceConfig fine, coarse{.spacing_finger_widths = 0.4};
+    const auto mesh = test::sphere(0.04, 2000);
+    const std::vector<double> value(mesh.vertices.size(), 0.1);
+    const auto sampler = [&] {
+        const TriangleMesh passing = mesh;
+        return SurfaceSampler::of(passing, value);
+    }();
+    ASSERT_TRUE(sampler.ok());
+    for (const SampleSurfaceConfig& config : {coarse, fine, coarse}) {
+        const auto found = sampler.value().sample(kFinger_m, config);
+        const auto expected = sample_surface(mesh, value, kFinger_m, config);
+        ASSERT_TRUE(found.ok() && expected.ok());
+        EXPECT_EQ(found.value().spacing_m, config.spacing_finger_widths * kFinger_m);
+        EXPECT_TRUE(same(found.value().samples, expected.value().samples));
+    }
+    EXPECT_FALSE(sampler.value().sample(0.0, fine).ok());
+}
+
 // A linear field is interpolated exactly, a constant one to the last bit.
 TEST(SampleSurface, ALinearFieldIsKept) {
     const auto mesh = test::moved(test::sphere(0.04, 2000), test::random_pose(7));

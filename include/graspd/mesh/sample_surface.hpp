@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "graspd/base/geometry.hpp"
@@ -25,6 +27,25 @@ struct SampleSurfaceConfig {
 struct SurfaceSamples {
     std::vector<SurfaceSample> samples;
     double spacing_m = 0.0;  ///< [m] usual distance of neighbours
+};
+
+/// A surface's faces, checked and ready for grids of any spacing.
+class SurfaceSampler {
+public:
+    /// @param mesh     closed, outward oriented [m]; the frame fixes the grid
+    /// @param value_m  per vertex: concavity [m], >= 0 or +infinity
+    /// @return kInvalidInput for an empty mesh, an index out of range, a vertex that is not finite,
+    ///         a value that is none or a wrong count of them
+    static Result<SurfaceSampler> of(const TriangleMesh& mesh, std::span<const double> value_m);
+
+    /// As sample_surface(), of this surface. Safe to call from any thread.
+    Result<SurfaceSamples> sample(double finger_width_m, const SampleSurfaceConfig& config) const;
+
+private:
+    struct Faces;
+    explicit SurfaceSampler(std::shared_ptr<const Faces> faces) : faces_(std::move(faces)) {}
+
+    std::shared_ptr<const Faces> faces_;
 };
 
 /// Takes samples that depend on the shape alone, not on how it is cut into triangles.
