@@ -14,7 +14,8 @@
 namespace graspd::planner_detail {
 namespace {
 
-constexpr std::size_t kBatch = 8;  // axes that are tried side by side
+constexpr std::size_t kBatch = 8;       // axes of which none is like another
+constexpr std::size_t kLeastTried = 2;  // of them side by side
 
 /// What one axis gave.
 struct Attempt {
@@ -111,7 +112,13 @@ private:
     void leave(const ClosingAxis& axis, const char* reason) {
         rejections_.add(reason, [&] { return traced(axis, {}, judgement_.gripper.name); });
     }
+    /// How many axes to try next: no more than are still wanted, should all give a good grasp.
+    std::size_t wanted() const {
+        const std::size_t held = judgement_.config.search.axes_per_round - held_.size();
+        return std::max(std::min<std::size_t>(good_left_, held), kLeastTried);
+    }
     std::vector<ClosingAxis> next_batch();
+    void try_some(std::span<const ClosingAxis> axes, StageLog& log);
     void accept(const ClosingAxis& axis, Attempt attempt, StageLog& log);
 
     const Judgement& judgement_;
@@ -155,13 +162,23 @@ void Round::accept(const ClosingAxis& axis, Attempt attempt, StageLog& log) {
     std::ranges::move(attempt.grasps, std::back_inserter(grasps_));
 }
 
+void Round::try_some(std::span<const ClosingAxis> axes, StageLog& log) {
+    std::vector<Attempt> attempts(axes.size());
+    for_blocks(axes.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) attempts[i] = try_axis(axes[i], judgement_);
+    });
+    for (std::size_t i = 0; i < axes.size(); ++i) accept(axes[i], std::move(attempts[i]), log);
+}
+
 void Round::try_batch(StageLog& log) {
     const std::vector<ClosingAxis> batch = next_batch();
-    std::vector<Attempt> attempts(batch.size());
-    for_blocks(batch.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) attempts[i] = try_axis(batch[i], judgement_);
-    });
-    for (std::size_t i = 0; i < batch.size(); ++i) accept(batch[i], std::move(attempts[i]), log);
+    std::span<const ClosingAxis> untried = batch;
+    while (!untried.empty() && !is_full()) {
+        const std::size_t count = std::min(wanted(), untried.size());
+        try_some(untried.first(count), log);
+        untried = untried.subspan(count);
+    }
+    for (const ClosingAxis& axis : untried) leave(axis, "axis_surplus");
     if (!is_full()) return;
     for (const ClosingAxis& axis : pending_) {
         leave(axis, like_any(axis, held_) ? "axis_similar" : "axis_surplus");
