@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -34,20 +35,58 @@ PlanError degenerate(const std::string& detail) {
     return PlanError{PlanErrorCode::kDegenerate, "concave_hull: " + detail};
 }
 
+/// Points of which no two are nearer than a gap, found by strips along x: whoever comes in rising x
+/// meets those that may be too near at the ends of three strips.
+class SpacedPoints {
+public:
+    SpacedPoints(double least_gap_m, double low_y_m)
+        : least_gap_m_(least_gap_m), low_y_m_(low_y_m), last_(kStrips, kNone) {}
+
+    /// Takes a point unless it is too near; its x is no less than any before.
+    void offer(const Eigen::Vector2d& point) {
+        const std::uint64_t strip = strip_of(point);
+        for (const std::uint64_t at : {strip - 1, strip, strip + 1}) {
+            if (is_near_one_of(at % kStrips, point)) return;
+        }
+        before_.push_back(
+            std::exchange(last_[strip % kStrips], static_cast<std::uint32_t>(points_.size())));
+        points_.push_back(point);
+    }
+    std::vector<Eigen::Vector2d> take() { return std::move(points_); }
+
+private:
+    static constexpr std::uint64_t kStrips = 1024;  // after as many they are the first ones again
+    static constexpr std::uint32_t kNone = 0xffffffff;
+
+    std::uint64_t strip_of(const Eigen::Vector2d& point) const {
+        constexpr double kHigh = 1.0 + 1e-9;  // rounding puts no near one two strips away
+        constexpr double kFarthest = 1e15;    // whole numbers beyond have no neighbours
+        const double strip = (point.y() - low_y_m_) / (kHigh * least_gap_m_);
+        return 1 + static_cast<std::uint64_t>(std::min(strip, kFarthest));
+    }
+    bool is_near_one_of(std::uint64_t strip, const Eigen::Vector2d& point) const {
+        for (std::uint32_t k = last_[strip]; k != kNone; k = before_[k]) {
+            if (point.x() - points_[k].x() >= least_gap_m_) return false;
+            if ((point - points_[k]).norm() < least_gap_m_) return true;
+        }
+        return false;
+    }
+
+    double least_gap_m_, low_y_m_;
+    std::vector<std::uint32_t> last_;    ///< by strip: its last point
+    std::vector<std::uint32_t> before_;  ///< by point: the one before it in its strip
+    std::vector<Eigen::Vector2d> points_;
+};
+
 /// Sorted points of which no two are nearer than `least_gap_m`.
 std::vector<Eigen::Vector2d> thin_out(std::span<const Eigen::Vector2d> points, double least_gap_m) {
     std::vector<Eigen::Vector2d> sorted(points.begin(), points.end());
     std::ranges::sort(sorted, lexicographic_less);
-    std::vector<Eigen::Vector2d> kept;
-    for (const Eigen::Vector2d& point : sorted) {
-        bool is_free = true;
-        for (std::size_t k = kept.size(); is_free && k-- > 0;) {
-            if (point.x() - kept[k].x() >= least_gap_m) break;
-            is_free = (point - kept[k]).norm() >= least_gap_m;
-        }
-        if (is_free) kept.push_back(point);
-    }
-    return kept;
+    double low_y_m = std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector2d& point : sorted) low_y_m = std::min(low_y_m, point.y());
+    SpacedPoints spaced(least_gap_m, low_y_m);
+    for (const Eigen::Vector2d& point : sorted) spaced.offer(point);
+    return spaced.take();
 }
 
 Eigen::Vector2d mean_of(std::span<const Eigen::Vector2d> points) {

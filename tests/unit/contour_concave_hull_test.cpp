@@ -94,6 +94,25 @@ TEST(ConcaveHull, StackedLayersCountOnce) {
     EXPECT_EQ(once.value().outline, twice.value().outline);
 }
 
+// A band of 4 x 700: each of its points has another one to its right, less than a quarter of the
+// spacing away in one of many directions, and none of these is kept, however far up it lies.
+TEST(ConcaveHull, PointsTooNearAreDroppedAllAlongABand) {
+    Points2 band, crowded;
+    for (int i = 0; i <= 3; ++i) {
+        for (int j = 0; j < 700; ++j) {
+            band.push_back(kSpacing_m * Eigen::Vector2d(i, j));
+            const double aside = 0.02 * ((37 * j + 11 * i) % 21 - 10);  // -0.2 to 0.2
+            crowded.push_back(band.back());
+            crowded.push_back(band.back() + kSpacing_m * Eigen::Vector2d(0.1, aside));
+        }
+    }
+    const auto expected = concave_hull(band, kSpacing_m, {});
+    const auto found = concave_hull(shuffled(crowded, 5), kSpacing_m, {});
+    ASSERT_TRUE(expected.ok() && found.ok());
+    EXPECT_EQ(expected.value().outline.size(), 2U * (3 + 699));
+    EXPECT_EQ(found.value().outline, expected.value().outline);
+}
+
 // In floats a metre from the origin is told to 1e-7 m only; a square of 10 points at 0.1 mm, a
 // kilometre away, still has its 36 border points, and they are the input's own.
 TEST(ConcaveHull, FarFromTheOriginNoDigitIsLost) {

@@ -12,10 +12,10 @@ namespace graspd {
 // What the stages that work in a plane share: one order of points and one wording of their errors.
 
 /// Lexicographic order: by x, then by y. Total for finite points; what makes a stage independent of
-/// the order in which its points arrive.
-inline bool lexicographic_less(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+/// the order in which its points arrive. An object, which algorithms inline as no function is.
+inline constexpr auto lexicographic_less = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-}
+};
 
 /// Checks that every coordinate is a finite number.
 /// @return nothing, or kInvalidInput naming `name`, the index and the values
