@@ -63,13 +63,8 @@ std::vector<Indices> euclidean_clusters(std::span<const SurfaceSample> samples,
     const auto points = points_of(samples, indices);
     const PointGrid grid(points, tolerance_m);
     DisjointSets sets(points.size());
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        stop_point(i);
-        grid.each_within(points[i], tolerance_m, [&](std::uint32_t other) {
-            if (other < i) sets.unite(i, other);
-            return true;
-        });
-    }
+    grid.each_pair_within(tolerance_m,
+                          [&](std::uint32_t i, std::uint32_t other) { sets.unite(i, other); });
     std::map<std::uint32_t, Indices> by_first;
     for (std::uint32_t i = 0; i < points.size(); ++i) by_first[sets.find(i)].push_back(indices[i]);
     std::vector<Indices> clusters;

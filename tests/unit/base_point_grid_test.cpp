@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace graspd {
@@ -46,6 +47,43 @@ TEST(PointGrid, FindsWhatComparingAllFinds) {
     }
 }
 
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// The lower number of a pair first, pairs in rising order.
+Pairs pairs_within(const PointGrid& grid, double distance_m) {
+    Pairs found;
+    grid.each_pair_within(distance_m, [&](std::uint32_t i, std::uint32_t j) {
+        found.emplace_back(std::min(i, j), std::max(i, j));
+    });
+    std::ranges::sort(found);
+    return found;
+}
+
+// Near the origin, and in two clouds far apart, whose cells have no table: every pair, once.
+TEST(PointGrid, MeetsEveryPairOnce) {
+    std::mt19937 engine(11);
+    std::uniform_real_distribution<double> number(-0.05, 0.05);
+    for (const double apart_m : {0.0, 900.0}) {
+        std::vector<Vector3d> points;
+        for (int k = 0; k < 400; ++k) {
+            const Vector3d shift = k % 2 == 0 ? Vector3d::Zero() : Vector3d(apart_m, -apart_m, 1.0);
+            points.push_back(shift + Vector3d(number(engine), number(engine), number(engine)));
+        }
+        points.push_back(points.front());  // and two at one place
+        const PointGrid grid(points, 0.02);
+        for (const double distance_m : {0.02, 0.011}) {
+            Pairs expected;
+            for (std::uint32_t i = 0; i < points.size(); ++i) {
+                for (std::uint32_t j = i + 1; j < points.size(); ++j) {
+                    if ((points[i] - points[j]).norm() <= distance_m) expected.emplace_back(i, j);
+                }
+            }
+            EXPECT_GT(expected.size(), 100U);
+            EXPECT_EQ(pairs_within(grid, distance_m), expected);
+        }
+    }
+}
+
 // Two clouds a kilometre apart have far too many cells between them for a table of all.
 TEST(PointGrid, PointsFarApartAreFoundToo) {
     std::mt19937 engine(9);
@@ -77,6 +115,7 @@ TEST(PointGrid, EndsWhenItIsToldTo) {
 TEST(PointGrid, WithoutPointsNobodyIsNear) {
     const PointGrid grid({}, 0.01);
     EXPECT_TRUE(within(grid, Vector3d::Zero(), 0.01).empty());
+    EXPECT_TRUE(pairs_within(grid, 0.01).empty());
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 
 #include <Eigen/Geometry>
 
+#include "graspd/base/stop.hpp"
+
 namespace graspd {
 
 /// Points in cubic cells, for questions of the form "who is within a cell's length of here".
@@ -38,6 +40,30 @@ public:
             }
         }
         return true;
+    }
+
+    /// Calls visit(i, j) once for any two points within `distance_m` <= cell_m of each other, in an
+    /// order of its own. Stoppable.
+    template <class Visit>
+    void each_pair_within(double distance_m, Visit&& visit) const {
+        const double squared = distance_m * distance_m;
+        for (std::size_t at = 0; at < points_.size(); ++at) {
+            stop_point(at);
+            const auto meet = [&](std::size_t first, std::size_t last) {
+                for (std::size_t other = first; other < last; ++other) {
+                    if ((points_[other] - points_[at]).squaredNorm() > squared) continue;
+                    visit(number_[at], number_[other]);
+                }
+            };
+            // Who comes before in the order of the cells has met this point already.
+            const auto [x, y, z] = cell_of(points_[at]);
+            meet(at + 1, row({x, y, z - 1}, {x, y, z + 1}).second);
+            for (const auto& [i, j] :
+                 {std::pair{x, y + 1}, {x + 1, y - 1}, {x + 1, y}, {x + 1, y + 1}}) {
+                const auto [first, last] = row({i, j, z - 1}, {i, j, z + 1});
+                meet(first, last);
+            }
+        }
     }
 
 private:
