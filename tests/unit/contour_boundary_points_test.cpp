@@ -39,7 +39,8 @@ TEST(BoundaryPoints, BandKeepsItsLeftAndRightEdgesOnly) {
 
 // Eq. (1) asks for the foot to lie on the segment. The point (10, 20) lies exactly on the line of
 // the L's inner edge from (40, 20) to (20, 20), at t = 1.5; the nearest foot is 10 away. The
-// point (16, 18) is 4.5 from the corner and 2 and 4 from the lines through it, at t = 1.2 and t = -0.1.
+// point (16, 18) is 4.5 from the corner and 2 and 4 from the lines through it, at t = 1.2 and t =
+// -0.1.
 TEST(BoundaryPoints, AFootBeyondTheSegmentDoesNotCount) {
     const Points2 l_shape = {{0, 0}, {40, 0}, {40, 20}, {20, 20}, {20, 40}, {0, 40}};
     const Points2 cluster = {{10, 20}, {16, 18}, {30, 20}, {20, 30}};
