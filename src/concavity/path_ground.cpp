@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graspd/base/parallel.hpp"
 #include "graspd/base/space_curve.hpp"
 #include "graspd/base/stop.hpp"
 
@@ -34,63 +35,47 @@ double mean_edge(const TriangleMesh& mesh) {
     return sum_m / count;
 }
 
-/// Per vertex the sine of the widest angle between its normal and one of its faces'; 1 from a right
-/// angle on.
-std::vector<float> spread_of_fans(const TriangleMesh& mesh,
-                                  const std::vector<Eigen::Vector3d>& normals) {
-    std::vector<float> least(mesh.vertices.size(), 1.0F);  // cosine
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        stop_point(f);
-        const Triangle& face = mesh.faces[f];
-        const Eigen::Vector3d& a = mesh.vertices[face[0]];
-        const Eigen::Vector3d cross =
-            (mesh.vertices[face[1]] - a).cross(mesh.vertices[face[2]] - a);
-        const double area = cross.norm();
-        if (!(area > 0.0)) continue;
-        for (const std::uint32_t v : face) {
-            least[v] = std::min(least[v], static_cast<float>(normals[v].dot(cross) / area));
-        }
-    }
-    for (float& each : least) each = std::sqrt(1.0F - std::max(each, 0.0F) * std::max(each, 0.0F));
-    return least;
-}
-
-/// Per vertex whether an edge leads below the plane of its normal: over one where none does, flat
-/// or hollow, no string is taut.
-std::vector<char> falling_fans(const TriangleMesh& mesh,
-                               const std::vector<Eigen::Vector3d>& normals) {
-    constexpr double kFlat = 1e-3;  // sine
-    std::vector<char> falls(mesh.vertices.size(), 0);
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        stop_point(f);
-        const Triangle& face = mesh.faces[f];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t v = face[k];
-            const Eigen::Vector3d edge = mesh.vertices[face[(k + 1) % 3]] - mesh.vertices[v];
-            const double rise = edge.dot(normals[v]);
-            falls[v] |= rise < 0.0 && rise * rise > kFlat * kFlat * edge.squaredNorm();
-        }
-    }
-    return falls;
-}
-
 }  // namespace
 
 PathGround::PathGround(const TriangleMesh& of, const ConcavityConfig& config)
     : mesh(of),
       diagonal_m(mesh_diagonal_m(of)),
       offset_m(config.start_offset * diagonal_m),
-      mean_edge_m(mean_edge(of)),
-      neighbours(of),
-      normals(angle_weighted_normals(of)),
-      spread(spread_of_fans(of, normals)),
-      can_bend(falling_fans(of, normals)),
-      order(near_order(of, diagonal_m)) {
-    lifted.reserve(of.vertices.size());
-    for (std::size_t v = 0; v < of.vertices.size(); ++v) {
-        stop_point(v);
-        lifted.push_back(of.vertices[v] + offset_m * normals[v]);
+      mean_edge_m(mean_edge(of)) {
+    run_together({[&] { neighbours = VertexNeighbours(of); },
+                  [&] { corners = corners_of_faces(of); },
+                  [&] { order = near_order(of, diagonal_m); }});
+    const std::size_t count = of.vertices.size();
+    normals.resize(count);
+    lifted.resize(count);
+    spread.resize(count);
+    can_bend.resize(count);
+    constexpr std::size_t kVerticesAtATime = 2048;
+    for_blocks(count, kVerticesAtATime, [&](std::size_t first, std::size_t last) {
+        for (std::size_t v = first; v < last; ++v) look_around(static_cast<std::uint32_t>(v));
+    });
+}
+
+/// Normal, lift, and what strings may lie over the vertex.
+void PathGround::look_around(std::uint32_t vertex) {
+    const auto faces = neighbours.faces_of(vertex);
+    const Eigen::Vector3d& place = mesh.vertices[vertex];
+    const Eigen::Vector3d normal = angle_weighted_normal(mesh, vertex, faces, corners);
+    normals[vertex] = normal;
+    lifted[vertex] = place + offset_m * normal;
+    double least = 1.0;  // cosine
+    for (const std::uint32_t f : faces) {
+        if (corners[f].normal.isZero(0.0)) continue;  // no area
+        least = std::min(least, normal.dot(corners[f].normal));
     }
+    least = std::max(least, 0.0);
+    spread[vertex] = static_cast<float>(std::sqrt(1.0 - least * least));
+    constexpr double kFlat = 1e-3;  // sine
+    can_bend[vertex] = std::ranges::any_of(neighbours.of(vertex), [&](std::uint32_t next) {
+        const Eigen::Vector3d edge = mesh.vertices[next] - place;
+        const double rise = edge.dot(normal);
+        return rise < 0.0 && rise * rise > kFlat * kFlat * edge.squaredNorm();
+    });
 }
 
 }  // namespace graspd::concavity_detail

@@ -17,11 +17,16 @@ struct PathGround {
     double diagonal_m, offset_m;  ///< [m] the lift is offset_m
     double mean_edge_m;           ///< [m] of the mesh's edges
     VertexNeighbours neighbours;
-    std::vector<Eigen::Vector3d> normals;
-    std::vector<Eigen::Vector3d> lifted;  ///< [m] vertices off the surface: where rays start
-    std::vector<float> spread;            ///< sine of the widest angle of a face to the normal
-    std::vector<char> can_bend;           ///< whether some mesh edge falls away from the vertex
-    std::vector<std::uint32_t> order;     ///< vertices so that the next is often near
+    std::vector<FaceCorners> corners;      ///< by face
+    std::vector<Eigen::Vector3d> normals;  ///< by vertex
+    std::vector<Eigen::Vector3d> lifted;   ///< [m] vertices off the surface: where rays start
+    std::vector<float> spread;             ///< sine of the widest angle of a face to the normal
+    std::vector<char> can_bend;            ///< whether some mesh edge falls away from the vertex:
+                                           ///< else, flat or hollow, no string is taut over it
+    std::vector<std::uint32_t> order;      ///< vertices so that the next is often near
+
+private:
+    void look_around(std::uint32_t vertex);
 };
 
 /// Where a ray from a lifted point straight to a hull facet's plane has to end: one lift beyond it.

@@ -112,9 +112,11 @@ bool BendSlider::holds(std::uint32_t from, std::size_t place, const Eigen::Vecto
     const auto twin = std::ranges::find(back, from) - back.begin();
     if (twin == static_cast<std::ptrdiff_t>(back.size())) return false;
     const TriangleMesh& mesh = ground_.mesh;
-    const Eigen::Vector3d left = face_normal(mesh, ground_.neighbours.faces_of(from)[place]);
-    const Eigen::Vector3d right =
-        face_normal(mesh, ground_.neighbours.faces_of(to)[static_cast<std::size_t>(twin)]);
+    const auto normal_beside = [&](std::uint32_t vertex, std::size_t edge) -> const auto& {
+        return ground_.corners[ground_.neighbours.faces_of(vertex)[edge]].normal;
+    };
+    const Eigen::Vector3d& left = normal_beside(from, place);
+    const Eigen::Vector3d& right = normal_beside(to, static_cast<std::size_t>(twin));
     const Eigen::Vector3d along = (mesh.vertices[to] - mesh.vertices[from]).stableNormalized();
     if (left.dot(along.cross(right)) > 0.0) return false;  // concave
     const double near = before.norm(), far = after.norm();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "graspd/base/parallel.hpp"
 #include "graspd/base/stop.hpp"
 
 namespace graspd::concavity_detail {
@@ -46,26 +47,35 @@ VertexNeighbours::VertexNeighbours(const TriangleMesh& mesh) : start_(mesh.verti
     }
 }
 
-std::vector<Eigen::Vector3d> angle_weighted_normals(const TriangleMesh& mesh) {
-    std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        stop_point(f);
-        const Triangle& face = mesh.faces[f];
-        const Eigen::Vector3d& a = mesh.vertices[face[0]];
-        const Eigen::Vector3d ab = mesh.vertices[face[1]] - a;
-        const Eigen::Vector3d ac = mesh.vertices[face[2]] - a;
-        const Eigen::Vector3d cross = ab.cross(ac);
-        const double twice_area = cross.norm();
-        if (!(twice_area > 0.0)) continue;
-        const Eigen::Vector3d normal = cross / twice_area;
-        const double at_a = quick_angle(twice_area, ab.dot(ac));
-        const double at_b = quick_angle(twice_area, -ab.dot(ac - ab));
-        normals[face[0]] += at_a * normal;
-        normals[face[1]] += at_b * normal;
-        normals[face[2]] += (std::numbers::pi - at_a - at_b) * normal;
+std::vector<FaceCorners> corners_of_faces(const TriangleMesh& mesh) {
+    constexpr std::size_t kFacesAtATime = 4096;
+    std::vector<FaceCorners> corners(mesh.faces.size());
+    for_blocks(corners.size(), kFacesAtATime, [&](std::size_t first, std::size_t last) {
+        for (std::size_t f = first; f < last; ++f) {
+            const Triangle& face = mesh.faces[f];
+            const Eigen::Vector3d& a = mesh.vertices[face[0]];
+            const Eigen::Vector3d ab = mesh.vertices[face[1]] - a;
+            const Eigen::Vector3d ac = mesh.vertices[face[2]] - a;
+            const Eigen::Vector3d cross = ab.cross(ac);
+            const double twice_area = cross.norm();
+            if (!(twice_area > 0.0)) continue;
+            const double at_a = quick_angle(twice_area, ab.dot(ac));
+            const double at_b = quick_angle(twice_area, -ab.dot(ac - ab));
+            corners[f] = {cross / twice_area, {at_a, at_b, std::numbers::pi - at_a - at_b}};
+        }
+    });
+    return corners;
+}
+
+Eigen::Vector3d angle_weighted_normal(const TriangleMesh& mesh, std::uint32_t vertex,
+                                      std::span<const std::uint32_t> faces_of_vertex,
+                                      std::span<const FaceCorners> corners) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const std::uint32_t f : faces_of_vertex) {
+        const auto corner = std::ranges::find(mesh.faces[f], vertex) - mesh.faces[f].begin();
+        sum += corners[f].angle_rad[corner] * corners[f].normal;
     }
-    for (Eigen::Vector3d& normal : normals) normal.stableNormalize();
-    return normals;
+    return sum.stableNormalized();
 }
 
 }  // namespace graspd::concavity_detail
