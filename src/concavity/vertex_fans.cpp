@@ -11,7 +11,7 @@
 namespace graspd::concavity_detail {
 namespace {
 
-/// Angle whose tangent is y / x, for y >= 0, to 1e-5 rad.
+/// Angle whose tangent is y / x, for y >= 0, to 1.2e-5 rad.
 double quick_angle(double y, double x) {
     const double wide = std::abs(x);
     const double t = std::min(y, wide) / std::max(y, wide);

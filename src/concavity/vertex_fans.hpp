@@ -34,7 +34,7 @@ struct FaceCorners {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< unit; zero for a face without area
     Eigen::Vector3d angle_rad = Eigen::Vector3d::Zero();  ///< at the face's first, second, third
 };
-/// One per face. The angles are good to 2e-5 rad (Abramowitz and Stegun 1964, 4.4.49).
+/// One per face. The angles are good to 3e-5 rad (Abramowitz and Stegun 1964, 4.4.49).
 std::vector<FaceCorners> corners_of_faces(const TriangleMesh& mesh);
 
 /// The unit mean of the normals of a vertex's faces, each weighted by its angle there (Baerentzen

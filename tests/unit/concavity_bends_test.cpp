@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <vector>
 
@@ -136,6 +137,32 @@ TEST(PathGround, BendsAreAtConvexEdgesAlone) {
         convex += ground.can_bend[v] != 0;
     }
     EXPECT_GT(convex, 50u);
+}
+
+// A cube's corner leans as much to each of its three sides, however many triangles meet there: its
+// normal is the diagonal, 1 / sqrt(3) from each side's. A ray starts one lift along it, and its
+// side's normals are as far off as the sine says: sqrt(2 / 3). The angles are good to 3e-5 rad.
+TEST(PathGround, ACornersNormalIsTheMeanOfItsSides) {
+    const TriangleMesh mesh = test::box({0.04, 0.04, 0.04}, 12);
+    const PathGround ground(mesh, {});
+    ASSERT_EQ(mesh.vertices.size(), 8U);
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const Vector3d outward = mesh.vertices[v].normalized();
+        EXPECT_LT((ground.normals[v] - outward).norm(), 1e-4) << v;
+        EXPECT_NEAR((ground.lifted[v] - mesh.vertices[v]).norm(), ground.offset_m, 1e-12);
+        EXPECT_GT((ground.lifted[v] - mesh.vertices[v]).dot(outward), 0.99 * ground.offset_m);
+        EXPECT_NEAR(ground.spread[v], std::sqrt(2.0 / 3.0), 1e-4);
+    }
+    const double area_m2 = 0.5 * 0.04 * 0.04;
+    EXPECT_NEAR(ground.offset_m, 2e-5 * 0.04 * std::sqrt(3.0), 1e-12);
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+        const Triangle& t = mesh.faces[f];
+        const Vector3d& a = mesh.vertices[t[0]];
+        const Vector3d cross = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
+        EXPECT_LT((ground.corners[f].normal - cross / (2.0 * area_m2)).norm(), 1e-12);
+        EXPECT_NEAR(ground.corners[f].angle_rad.sum(), std::numbers::pi, 1e-12);
+        EXPECT_NEAR(ground.corners[f].angle_rad.maxCoeff(), 0.5 * std::numbers::pi, 3e-5);
+    }
 }
 
 }  // namespace
