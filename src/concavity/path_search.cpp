@@ -309,16 +309,13 @@ void PathSearch::slide_bends() {
 
 ConcavityField PathSearch::take() {
     // A bend's own value may have sunk after a string through it was measured.
-    std::vector<std::uint32_t> order;
+    std::vector<std::pair<double, std::uint32_t>> order;
     for (std::uint32_t v = 0; v < field_.value_m.size(); ++v) {
-        if (field_.flag[v] == ConcavityFlag::kPath) order.push_back(v);
+        if (field_.flag[v] == ConcavityFlag::kPath) order.emplace_back(field_.value_m[v], v);
     }
-    stoppable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
-        return field_.value_m[a] != field_.value_m[b] ? field_.value_m[a] < field_.value_m[b]
-                                                      : a < b;
-    });
+    stoppable_sort(order);
     std::size_t measured = 0;
-    for (const std::uint32_t v : order) {
+    for (const auto& [value_m, v] : order) {
         stop_point(measured++);
         field_.value_m[v] = std::min(field_.value_m[v], length_of_way(field_, ground_, planes_, v));
     }
