@@ -59,8 +59,8 @@ private:
     static constexpr std::uint32_t kNone = 0xffffffff;
 
     std::uint64_t strip_of(const Eigen::Vector2d& point) const {
-        constexpr double kHigh = 1.0 + 1e-9;  // rounding puts no near one two strips away
-        constexpr double kFarthest = 1e15;    // whole numbers beyond have no neighbours
+        constexpr double kHigh = 1.5;       // rounding puts no near one two strips away
+        constexpr double kFarthest = 1e14;  // whole numbers beyond have no neighbours
         const double strip = (point.y() - low_y_m_) / (kHigh * least_gap_m_);
         return 1 + static_cast<std::uint64_t>(std::min(strip, kFarthest));
     }

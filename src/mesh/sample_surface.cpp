@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -72,24 +73,29 @@ std::optional<PlanError> check_parameters(double finger_width_m,
     return check_positive("sample_surface: finger_width_m", finger_width_m);
 }
 
-/// The same whatever the order of the faces: a sum of whole numbers.
+/// [m2] The same whatever the order of the faces: a sum of whole numbers. NaN where a face is too
+/// large to measure.
 double area_of(std::span<const ScanFace> faces) {
     double largest_m2 = 0.0;
-    for (const ScanFace& face : faces) largest_m2 = std::max(largest_m2, face.area_m2);
+    for (const ScanFace& face : faces) {
+        if (!std::isfinite(face.area_m2)) return std::numeric_limits<double>::quiet_NaN();
+        largest_m2 = std::max(largest_m2, face.area_m2);
+    }
     if (!std::isnormal(largest_m2)) return largest_m2;
     const int count_bits = static_cast<int>(std::bit_width(faces.size()));
     const double unit_m2 = std::ldexp(1.0, std::ilogb(largest_m2) + count_bits - 62);
     if (!std::isnormal(unit_m2)) return largest_m2;
     std::uint64_t units = 0;  // below 2^63
     for (const ScanFace& face : faces) {
-        units += static_cast<std::uint64_t>(face.area_m2 / unit_m2);
+        units += static_cast<std::uint64_t>(face.area_m2 / unit_m2 + 0.5);
     }
     return static_cast<double>(units) * unit_m2;
 }
 
 /// The configured spacing, or the one at which the surface takes max_samples.
 double choose_spacing(double area_m2, double configured_m, double max_samples) {
-    if (area_m2 <= (1.0 - 1e-9) * max_samples * configured_m * configured_m) return configured_m;
+    const bool fits = area_m2 <= (1.0 - 1e-9) * max_samples * configured_m * configured_m;
+    if (fits || std::isnan(area_m2)) return configured_m;
     const double growth = std::sqrt(area_m2 / max_samples) / configured_m - 1.0;
     const double steps = std::ceil(growth / kGrowthStep - 1e-6);
     return configured_m * (1.0 + kGrowthStep * std::max(0.0, steps));

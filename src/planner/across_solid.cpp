@@ -25,4 +25,10 @@ AcrossSolid look_across(const PreparedObject& object, const SurfaceSampler& samp
     return across;
 }
 
+AcrossSolid look_across(const PreparedObject& object, const Gripper& gripper,
+                        const PlannerConfig& config) {
+    const auto sampler = SurfaceSampler::of(object.mesh_P, object.field.value_m);
+    return sampler ? look_across(object, sampler.value(), gripper, config) : AcrossSolid{};
+}
+
 }  // namespace graspd::planner_detail

@@ -21,5 +21,8 @@ struct AcrossSolid {
 /// @param sampler  of the object's surface
 AcrossSolid look_across(const PreparedObject& object, const SurfaceSampler& sampler,
                         const Gripper& gripper, const PlannerConfig& config);
+/// The same with a sampler of its own, for a surface that was seen before.
+AcrossSolid look_across(const PreparedObject& object, const Gripper& gripper,
+                        const PlannerConfig& config);
 
 }  // namespace graspd::planner_detail

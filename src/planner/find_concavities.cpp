@@ -76,11 +76,11 @@ Result<SeenSurface> see_surface(const PreparedObject& object, const Gripper& gri
         return SurfaceSampler::of(object.mesh_P, object.field.value_m);
     });
     if (!sampler) return sampler.error();
-    SeenSurface seen{{}, {}, {}, sampler.value()};
+    SeenSurface seen;
     std::optional<PlanError> bad;
     const auto look_along = [&] {
         auto surface = log.run(kSample, 0, [&] {
-            return seen.sampler.sample(gripper.finger_width_m, config.sample_surface);
+            return sampler.value().sample(gripper.finger_width_m, config.sample_surface);
         });
         if (!surface) return void(bad = surface.error());
         seen.surface = std::move(surface).value();
@@ -91,7 +91,7 @@ Result<SeenSurface> see_surface(const PreparedObject& object, const Gripper& gri
     };
     run_together({look_along, [&] {
                       if (across_too)
-                          seen.across = look_across(object, seen.sampler, gripper, config);
+                          seen.across = look_across(object, sampler.value(), gripper, config);
                   }});
     if (bad) return *bad;
     return seen;

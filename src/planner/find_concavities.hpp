@@ -25,7 +25,6 @@ struct SeenSurface {
     SurfaceSamples surface;
     std::vector<Concavity> concavities;  ///< of `surface`, deepest first
     std::optional<AcrossSolid> across;   ///< once somebody wanted it
-    SurfaceSampler sampler;              ///< of the whole surface
 };
 /// Samples the surface as finely as a finger is wide, and finds its concavities; beside that, where
 /// it is wanted, looks across the solid.

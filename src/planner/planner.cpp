@@ -113,8 +113,7 @@ Result<Found> find_grasps(const PlanRequest& request, Scene& scene, const Planne
             if (!seen) return seen.error();
             scene.seen.push_back(std::move(seen).value());
         } else if (searches && across && !scene.seen[i].across) {
-            scene.seen[i].across =
-                look_across(scene.object, scene.seen[i].sampler, gripper, config);
+            scene.seen[i].across = look_across(scene.object, gripper, config);
         }
         const Judgement judgement = judgement_of(request, scene, gripper, config, traced);
         auto of_gripper = searches ? search_grasps(judgement, scene.seen[i], log)

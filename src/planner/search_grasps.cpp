@@ -112,7 +112,8 @@ private:
     void leave(const ClosingAxis& axis, const char* reason) {
         rejections_.add(reason, [&] { return traced(axis, {}, judgement_.gripper.name); });
     }
-    /// How many axes to try next: no more than are still wanted, should all give a good grasp.
+    /// How many axes to try next: as many as are still wanted, should all give a good grasp, but no
+    /// fewer than kLeastTried; what an axis beyond gives is thrown away.
     std::size_t wanted() const {
         const std::size_t held = judgement_.config.search.axes_per_round - held_.size();
         return std::max(std::min<std::size_t>(good_left_, held), kLeastTried);

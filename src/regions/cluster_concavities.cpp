@@ -11,7 +11,6 @@
 #include "graspd/base/plane_points.hpp"
 #include "graspd/base/point_grid.hpp"
 #include "graspd/base/settings.hpp"
-#include "graspd/base/stop.hpp"
 
 namespace graspd {
 namespace {

@@ -49,6 +49,16 @@ TEST(BoundaryPoints, AFootBeyondTheSegmentDoesNotCount) {
     EXPECT_EQ(boundary.value(), (Points2{{30, 20}, {20, 30}}));
 }
 
+// So far from its edge's start that only the threshold lets the edge reach it: its foot is the
+// edge's end, and the next edge has none.
+TEST(BoundaryPoints, AFootAtASegmentsEndCounts) {
+    const Points2 square = {{0, 0}, {8, 0}, {8, 8}, {0, 8}};
+    const auto boundary =
+        boundary_points(Points2{{8, -0.9}, {8, -1.1}, {8.5, -0.9}}, square, 1.0, {});
+    ASSERT_TRUE(boundary.ok());
+    EXPECT_EQ(boundary.value(), (Points2{{8, -0.9}}));
+}
+
 // The threshold itself is outside: "below d_threshold". 0.5 and 0.25 are exact in binary.
 TEST(BoundaryPoints, TheThresholdIsExclusive) {
     const Points2 square = {{0, 0}, {8, 0}, {8, 8}, {0, 8}};

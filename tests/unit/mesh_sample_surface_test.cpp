@@ -329,6 +329,13 @@ TEST(SampleSurface, EveryErrorNamesItsCause) {
     fails(broken, zeros(mesh), kFinger_m, {}, invalid, "vertex 2");
     fails(test::moved(mesh, Eigen::Isometry3d(Eigen::Translation3d(1e6, 0, 0))), zeros(mesh),
           kFinger_m, {}, invalid, "too far");
+    // Areas beyond the largest number: infinite of a box, infinity less infinity of a tetrahedron.
+    const auto vast = test::scaled(mesh, 1e200);
+    fails(vast, zeros(vast), kFinger_m, {}, invalid, "too far");
+    TriangleMesh skew{{{1e200, 2e200, 3e200}, {4e200, -5e200, 6e200}, {-7e200, 8e200, 9e200}}, {}};
+    skew.vertices.emplace_back(2e200, 9e200, -4e200);
+    skew.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    fails(skew, zeros(skew), kFinger_m, {}, invalid, "too far");
     // A needle between two lines of the grid.
     const auto needle = test::box({0.001, 0.001, 0.0005});
     fails(needle, zeros(needle), kFinger_m, {}, PlanErrorCode::kDegenerate, "no line");
