@@ -73,7 +73,9 @@ private:
     void consider_hiding(std::uint32_t v, std::int32_t bend, Way& way);
     void consider_planes(std::uint32_t v, Way& way);
     void consider_pool(std::uint32_t v, const BendPools& pools, std::size_t tries, Way& way);
-    void shorten_bends(bool with_lookouts);
+    std::vector<std::uint32_t> bends_to_shorten() const;
+    void shorten_bends(const std::vector<std::uint32_t>& bends);
+    void shorten_bends_again(const std::vector<double>& known_m);
     void shorten_all(const std::vector<std::uint32_t>& bent);
     std::vector<char> improve(
         const std::vector<std::uint32_t>& vertices,

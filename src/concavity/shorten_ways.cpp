@@ -182,16 +182,33 @@ std::vector<char> PathSearch::improve(
     return gained;
 }
 
-/// Shortens the ways of the bends that most ways use.
-void PathSearch::shorten_bends(bool with_lookouts) {
+/// Of the bends that most ways use, those whose own ways are not proven.
+std::vector<std::uint32_t> PathSearch::bends_to_shorten() const {
     std::vector<std::uint32_t> bends = most_used_bends();
     std::erase_if(bends, [&](std::uint32_t v) { return field_.flag[v] != ConcavityFlag::kPath; });
+    return bends;
+}
+
+/// Shortens the ways of bends that many ways use.
+void PathSearch::shorten_bends(const std::vector<std::uint32_t>& bends) {
     const BendPools all(ground_, planes_, field_, possible_bends());
     const std::size_t stride = 1 + bends.size() / kBendLookouts;
     improve(bends, [&](std::uint32_t v, std::size_t place, Way& way) {
         consider_planes(v, way);
         consider_pool(v, all, kMostTries, way);
-        if (with_lookouts && place % stride == 0) look_around(v, place, kAllDirections, way);
+        if (place % stride == 0) look_around(v, place, kAllDirections, way);
+    });
+}
+
+/// Shortens the ways of the bends that most ways use over bends whose own ways have become shorter:
+/// the others, and the planes, were tried when the values were `known_m`.
+void PathSearch::shorten_bends_again(const std::vector<double>& known_m) {
+    std::vector<std::uint32_t> shorter = possible_bends();
+    std::erase_if(shorter, [&](std::uint32_t v) { return !(field_.value_m[v] < known_m[v]); });
+    if (shorter.empty()) return;
+    const BendPools pools(ground_, planes_, field_, shorter);
+    improve(bends_to_shorten(), [&](std::uint32_t v, std::size_t, Way& way) {
+        consider_pool(v, pools, kMostTries, way);
     });
 }
 
@@ -227,12 +244,17 @@ void PathSearch::shorten_all(const std::vector<std::uint32_t>& bent) {
 /// ways, which many share, then those of other vertices, then the bends' once more, as some lead
 /// over vertices whose ways have just become shorter.
 void PathSearch::shorten_across_the_void() {
-    const std::vector<std::uint32_t> bent = bent_vertices();
-    if (bent.empty()) return;
+    std::vector<std::uint32_t> others = bent_vertices();
+    if (others.empty()) return;
     stop_point();
-    shorten_bends(true);
-    shorten_all(bent);
-    shorten_bends(false);
+    const std::vector<double> known_m = field_.value_m;
+    const std::vector<std::uint32_t> bends = bends_to_shorten();
+    shorten_bends(bends);
+    std::vector<char> searched(known_m.size(), 0);
+    for (const std::uint32_t v : bends) searched[v] = 1;
+    std::erase_if(others, [&](std::uint32_t v) { return searched[v] != 0; });
+    if (!others.empty()) shorten_all(others);
+    shorten_bends_again(known_m);
 }
 
 }  // namespace graspd::concavity_detail
