@@ -20,7 +20,8 @@ struct PathGround {
     std::vector<FaceCorners> corners;      ///< by face
     std::vector<Eigen::Vector3d> normals;  ///< by vertex
     std::vector<Eigen::Vector3d> lifted;   ///< [m] vertices off the surface: where rays start
-    std::vector<float> spread;             ///< sine of the widest angle of a face to the normal
+    std::vector<float> spread;             ///< sine of the widest angle of a face to the normal; 1
+                                           ///< from a right angle on
     std::vector<char> can_bend;            ///< whether some mesh edge falls away from the vertex:
                                            ///< else, flat or hollow, no string is taut over it
     std::vector<std::uint32_t> order;      ///< vertices so that the next is often near

@@ -200,8 +200,8 @@ void PathSearch::shorten_bends(const std::vector<std::uint32_t>& bends) {
     });
 }
 
-/// Shortens the ways of the bends that most ways use over bends whose own ways have become shorter:
-/// the others, and the planes, were tried when the values were `known_m`.
+/// Shortens the ways of the bends that most ways use over bends whose own ways have become shorter
+/// since the values were `known_m`: the others, and the planes, have been tried.
 void PathSearch::shorten_bends_again(const std::vector<double>& known_m) {
     std::vector<std::uint32_t> shorter = possible_bends();
     std::erase_if(shorter, [&](std::uint32_t v) { return !(field_.value_m[v] < known_m[v]); });

@@ -39,8 +39,7 @@ PlanError degenerate(const std::string& detail) {
 /// meets those that may be too near at the ends of three strips.
 class SpacedPoints {
 public:
-    SpacedPoints(double least_gap_m, double low_y_m)
-        : least_gap_m_(least_gap_m), low_y_m_(low_y_m), last_(kStrips, kNone) {}
+    explicit SpacedPoints(double least_gap_m) : least_gap_m_(least_gap_m), last_(kStrips, kNone) {}
 
     /// Takes a point unless it is too near; its x is no less than any before.
     void offer(const Eigen::Vector2d& point) {
@@ -58,11 +57,13 @@ private:
     static constexpr std::uint64_t kStrips = 1024;  // after as many they are the first ones again
     static constexpr std::uint32_t kNone = 0xffffffff;
 
+    /// Modulo 2^64, of which kStrips is a part: below zero the strips follow one another as well.
     std::uint64_t strip_of(const Eigen::Vector2d& point) const {
         constexpr double kHigh = 1.5;       // rounding puts no near one two strips away
         constexpr double kFarthest = 1e14;  // whole numbers beyond have no neighbours
-        const double strip = (point.y() - low_y_m_) / (kHigh * least_gap_m_);
-        return 1 + static_cast<std::uint64_t>(std::min(strip, kFarthest));
+        const double strip = std::floor(point.y() / (kHigh * least_gap_m_));
+        return static_cast<std::uint64_t>(
+            static_cast<std::int64_t>(std::clamp(strip, -kFarthest, kFarthest)));
     }
     bool is_near_one_of(std::uint64_t strip, const Eigen::Vector2d& point) const {
         for (std::uint32_t k = last_[strip]; k != kNone; k = before_[k]) {
@@ -72,7 +73,7 @@ private:
         return false;
     }
 
-    double least_gap_m_, low_y_m_;
+    double least_gap_m_;
     std::vector<std::uint32_t> last_;    ///< by strip: its last point
     std::vector<std::uint32_t> before_;  ///< by point: the one before it in its strip
     std::vector<Eigen::Vector2d> points_;
@@ -82,9 +83,7 @@ private:
 std::vector<Eigen::Vector2d> thin_out(std::span<const Eigen::Vector2d> points, double least_gap_m) {
     std::vector<Eigen::Vector2d> sorted(points.begin(), points.end());
     std::ranges::sort(sorted, lexicographic_less);
-    double low_y_m = std::numeric_limits<double>::infinity();
-    for (const Eigen::Vector2d& point : sorted) low_y_m = std::min(low_y_m, point.y());
-    SpacedPoints spaced(least_gap_m, low_y_m);
+    SpacedPoints spaced(least_gap_m);
     for (const Eigen::Vector2d& point : sorted) spaced.offer(point);
     return spaced.take();
 }

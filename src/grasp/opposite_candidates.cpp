@@ -58,19 +58,19 @@ Result<std::vector<OppositeCandidate>> opposite_candidates(std::span<const Surfa
     if (auto bad = validate(config, "opposite_candidates.")) return *bad;
     if (auto bad = check_positive("opposite_candidates: opening_m", opening_m)) return *bad;
     constexpr std::size_t kSamplesAtATime = 64;
-    std::vector<std::vector<OppositeCandidate>> parts((samples.size() + kSamplesAtATime - 1) /
-                                                      kSamplesAtATime);
+    std::vector<std::optional<OppositeCandidate>> of_sample(samples.size());
     for_blocks(samples.size(), kSamplesAtATime, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             if (!std::isfinite(samples[i].concavity_m)) continue;  // no hand gets there
-            auto candidate = opposite_of(samples[i], mesh_O, tree_O, opening_m, config);
-            if (!candidate) continue;
-            candidate->sample = static_cast<std::uint32_t>(i);
-            parts[first / kSamplesAtATime].push_back(*candidate);
+            of_sample[i] = opposite_of(samples[i], mesh_O, tree_O, opening_m, config);
         }
     });
     std::vector<OppositeCandidate> candidates;
-    for (const auto& part : parts) candidates.insert(candidates.end(), part.begin(), part.end());
+    for (std::uint32_t i = 0; i < of_sample.size(); ++i) {
+        if (!of_sample[i]) continue;
+        of_sample[i]->sample = i;
+        candidates.push_back(*of_sample[i]);
+    }
     return candidates;
 }
 

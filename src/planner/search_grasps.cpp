@@ -163,6 +163,7 @@ void Round::accept(const ClosingAxis& axis, Attempt attempt, StageLog& log) {
     std::ranges::move(attempt.grasps, std::back_inserter(grasps_));
 }
 
+/// Tries axes side by side; what each gave counts in their order.
 void Round::try_some(std::span<const ClosingAxis> axes, StageLog& log) {
     std::vector<Attempt> attempts(axes.size());
     for_blocks(axes.size(), 1, [&](std::size_t first, std::size_t last) {
